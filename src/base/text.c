@@ -1,0 +1,191 @@
+#include "base/text.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+void text_free(text *t)
+{
+    free(t->data);
+    *t = (text){0};
+}
+
+void text_clear(text *t)
+{
+    t->length = 0;
+    t->failed = false;
+    if (t->data) t->data[0] = '\0';
+}
+
+bool text_reserve(text *t, size_t n)
+{
+    if (t->failed) return false;
+    if (n >= SIZE_MAX / 2 - t->length) {
+        t->failed = true;
+        return false;
+    }
+    const size_t need = t->length + n + 1;
+    if (need <= t->capacity) return true;
+    size_t capacity = t->capacity ? t->capacity : 128;
+    while (capacity < need)
+        capacity *= 2;
+    char *data = realloc(t->data, capacity);
+    if (!data) {
+        t->failed = true;
+        return false;
+    }
+    t->data = data;
+    t->capacity = capacity;
+    return true;
+}
+
+void text_append(text *t, const char *bytes, size_t n)
+{
+    if (!text_reserve(t, n)) return;
+    if (n) memcpy(t->data + t->length, bytes, n);
+    t->length += n;
+    t->data[t->length] = '\0';
+}
+
+void text_add(text *t, const char *string)
+{
+    text_append(t, string, strlen(string));
+}
+
+void text_char(text *t, char c)
+{
+    text_append(t, &c, 1);
+}
+
+void text_printf(text *t, const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    const int n = vsnprintf(NULL, 0, format, args);
+    va_end(args);
+    if (n >= 0 && text_reserve(t, (size_t)n)) {
+        vsnprintf(t->data + t->length, (size_t)n + 1, format, again);
+        t->length += (size_t)n;
+    }
+    va_end(again);
+}
+
+void text_double(text *t, double value)
+{
+    if (!text_reserve(t, NUMBER_SIZE)) return;
+    t->length += number_format(value, t->data + t->length);
+    t->data[t->length] = '\0';
+}
+
+char *string_copy(const char *s, size_t n)
+{
+    char *copy = malloc(n + 1);
+    if (!copy) return NULL;
+    if (n) memcpy(copy, s, n);
+    copy[n] = '\0';
+    return copy;
+}
+
+bool string_equal(const char *a, const char *b)
+{
+    return strcmp(a, b) == 0;
+}
+
+char *path_beside(const char *from, const char *path)
+{
+    const char *slash = from && path[0] != '/' ? strrchr(from, '/') : NULL;
+    if (!slash) return string_copy(path, strlen(path));
+    const size_t folder = (size_t)(slash - from) + 1, rest = strlen(path);
+    char *joined = malloc(folder + rest + 1);
+    if (!joined) return NULL;
+    memcpy(joined, from, folder);
+    memcpy(joined + folder, path, rest + 1);
+    return joined;
+}
+
+/* Optimal string alignment distance, letter case ignored; names longer than LONGEST are far. */
+static size_t edit_distance(const char *a, const char *b)
+{
+    enum { LONGEST = 63 };
+    const size_t na = strlen(a), nb = strlen(b);
+    if (na > LONGEST || nb > LONGEST) return SIZE_MAX;
+    size_t d[3][LONGEST + 1];
+    for (size_t j = 0; j <= nb; j++)
+        d[0][j] = j;
+    for (size_t i = 1; i <= na; i++) {
+        size_t *row = d[i % 3], *above = d[(i - 1) % 3], *above2 = d[(i + 1) % 3];
+        row[0] = i;
+        for (size_t j = 1; j <= nb; j++) {
+            const int ca = tolower((unsigned char)a[i - 1]), cb = tolower((unsigned char)b[j - 1]);
+            size_t best = above[j - 1] + (ca != cb);
+            if (above[j] + 1 < best) best = above[j] + 1;
+            if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
+            if (i > 1 && j > 1 && ca == tolower((unsigned char)b[j - 2]) &&
+                cb == tolower((unsigned char)a[i - 2]) && above2[j - 2] + 1 < best)
+                best = above2[j - 2] + 1;
+            row[j] = best;
+        }
+    }
+    return d[na % 3][nb];
+}
+
+const char *nearest_name(const char *wanted, const char *const *names, size_t n)
+{
+    const char *nearest = NULL;
+    size_t least = SIZE_MAX;
+    for (size_t k = 0; k < n; k++) {
+        const size_t distance = edit_distance(wanted, names[k]);
+        if (distance < least) {
+            least = distance;
+            nearest = names[k];
+        }
+    }
+    /* A slip changes few letters: at most one in three of the longer name, and two at the least
+     * for names of four letters or more. */
+    if (!nearest) return NULL;
+    const size_t a = strlen(wanted), b = strlen(nearest), longer = a > b ? a : b;
+    const size_t limit = longer < 4 ? 1 : longer / 3 > 2 ? longer / 3 : 2;
+    return least <= limit ? nearest : NULL;
+}
+
+glint_status file_read(const char *path, char **data, size_t *size, place asked_from,
+                       glint_error *error)
+{
+    enum { LARGEST = 1 << 30 }; /* bytes */
+    *data = NULL;
+    *size = 0;
+    const place where = asked_from.file ? asked_from : (place){path, 0, 0};
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return error_set(error, GLINT_INPUT, where, "cannot open '%s': %s", path, strerror(errno));
+    if (!S_ISREG(info.st_mode))
+        return error_set(error, GLINT_INPUT, where, "'%s' is %s; expected a file", path,
+                         S_ISDIR(info.st_mode) ? "a directory" : "not a regular file");
+    if (info.st_size > LARGEST)
+        return error_set(error, GLINT_INPUT, where, "'%s' has more than 1 GiB; expected a smaller file",
+                         path);
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return error_set(error, GLINT_INPUT, where, "cannot open '%s': %s", path, strerror(errno));
+    char *bytes = malloc((size_t)info.st_size + 1);
+    if (!bytes) {
+        fclose(file);
+        return error_no_memory(error);
+    }
+    const size_t n = fread(bytes, 1, (size_t)info.st_size, file);
+    const bool bad = ferror(file) != 0;
+    fclose(file);
+    if (bad) {
+        free(bytes);
+        return error_set(error, GLINT_INPUT, where, "cannot read '%s': %s", path, strerror(errno));
+    }
+    bytes[n] = '\0';
+    *data = bytes;
+    *size = n;
+    return GLINT_OK;
+}

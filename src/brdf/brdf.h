@@ -1,0 +1,94 @@
+/* brdf.h: bidirectional reflectance distribution functions (1/sr).
+ *
+ * Every model is evaluated as g = f ci cr, which is finite over the whole hemisphere (f is not, for
+ * some). i (to the source) and r (to the observer) are unit vectors that both point away from the
+ * facet; n is its outward normal, t its tangent, b = n x t. ci = i.n, cr = r.n, H = i + r.
+ * g is 0 unless ci > BRDF_EDGE and cr > BRDF_EDGE: such a facet is edge-on and counts as dark. */
+#ifndef GLINT_BRDF_BRDF_H
+#define GLINT_BRDF_BRDF_H
+
+#include "base/error.h"
+#include "base/param.h"
+
+#define BRDF_EDGE 1e-12 /* cosine below which a facet is edge-on (physics page, section 6) */
+
+enum {
+    BRDF_TILE = 32,       /* directions handled together: the inner loop of the kernel */
+    BRDF_MAX_PARAMS = 12, /* numeric parameters of one model */
+    BRDF_MAX_COEF = 24    /* numbers that a prepared model keeps */
+};
+
+/* Facets of one material in one component: structure of arrays, component coordinates.
+ * All arrays have n entries; borrowed. */
+typedef struct brdf_facets {
+    int n;
+    const double *normal[3], *tangent[3], *bitangent[3]; /* unit, orthogonal, right-handed */
+    const double *area;                                  /* m^2 */
+} brdf_facets;
+
+/* BRDF_TILE pairs of directions in the component's frame, all of them usable numbers (spare lanes
+ * repeat a pair in use). */
+typedef struct brdf_light {
+    _Alignas(64) double i[3][BRDF_TILE]; /* unit, to the source */
+    double r[3][BRDF_TILE];              /* unit, to the observer */
+    double h[3][BRDF_TILE];              /* i + r, not normalised */
+    double hh[BRDF_TILE];                /* |i + r|^2 */
+    double hlen[BRDF_TILE];              /* |i + r| */
+} brdf_light;
+
+/* Fills h, hh, hlen from i and r. */
+void brdf_light_finish(brdf_light *light);
+
+enum {
+    BRDF_ISOTROPIC = 1u << 0,      /* does not depend on the tangent */
+    BRDF_NOT_RECIPROCAL = 1u << 1, /* f(i,r) != f(r,i), documented in `doc` */
+    BRDF_WAVELENGTH = 1u << 2      /* takes k_per_um and wavelength_um: both or neither */
+};
+
+/* One model: a row of the table. */
+typedef struct brdf_model {
+    const char *name, *doc, *source;
+    const param_info *params;
+    int n_params;
+    unsigned flags;
+    /* Turns parameters (in the table's order and units, checked against their ranges by the caller;
+     * an optional one that was not given is NAN) into the numbers that the kernel reads. Errors
+     * (GLINT_INPUT): combinations that make no sense. */
+    glint_status (*prepare)(const double *params, double coef[BRDF_MAX_COEF], glint_error *error);
+    /* g = f ci cr for one pair; i, r in the facet's frame (t, b, n), unit. */
+    double (*eval)(const double *coef, const double i[3], const double r[3]);
+    /* sum[k] += sum over facets of weight * g * area * visible[facet * BRDF_TILE + k], for every
+     * lane k, m^2/sr. visible: NULL for all 1. The fused kernel: same formula as eval. */
+    void (*tile)(const double *coef, double weight, const brdf_facets *facets,
+                 const brdf_light *light, const double *visible, double sum[BRDF_TILE]);
+} brdf_model;
+
+/* The table: model k from 0, NULL past the end. */
+const brdf_model *brdf_model_at(size_t k);
+/* The model of that name, or NULL. */
+const brdf_model *brdf_model_named(const char *name);
+
+/* One weighted lobe of a material, prepared. */
+typedef struct brdf_lobe {
+    const brdf_model *model;
+    double weight;
+    double params[BRDF_MAX_PARAMS]; /* as given, for reports; NAN where not given */
+    double coef[BRDF_MAX_COEF];
+} brdf_lobe;
+
+/* A material in one band: the weighted sum of its lobes. `lobes` owned. */
+typedef struct brdf_material {
+    int n_lobes;
+    brdf_lobe *lobes;
+} brdf_material;
+
+/* g = f ci cr of a material, facet frame. */
+double brdf_material_eval(const brdf_material *material, const double i[3], const double r[3]);
+/* sum[k] += ... over all lobes, as brdf_model.tile. */
+void brdf_material_tile(const brdf_material *material, const brdf_facets *facets,
+                        const brdf_light *light, const double *visible, double sum[BRDF_TILE]);
+/* True when two materials are the same function: their sums may be shared. */
+bool brdf_material_same(const brdf_material *a, const brdf_material *b);
+void brdf_material_free(brdf_material *material);
+
+#endif

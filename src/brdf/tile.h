@@ -1,0 +1,98 @@
+/* tile.h: builds, from a model's one formula, the two faces of brdf_model: brdf_eval and brdf_tile.
+ *
+ * A model's file defines BRDF_LANE as the name of its formula
+ *
+ *     static inline double formula(const double *coef, const brdf_lane *lane);
+ *
+ * which returns g = f ci cr (1/sr) of one pair of directions from the coefficients of `prepare`,
+ * and then includes this file. The formula must be finite wherever ci > BRDF_EDGE and cr >
+ * BRDF_EDGE; elsewhere it may return anything, but must not trap. What it does not read of the lane
+ * costs nothing: after inlining the compiler drops it.
+ *
+ * The kernel takes one facet after another, and for each a whole tile of directions, which the
+ * compiler turns into vectors. Each lane adds its facets in their order, so that a result never
+ * depends on how the work is shared among threads. */
+#ifndef BRDF_LANE
+#error "define BRDF_LANE, the name of the model's formula, before including tile.h"
+#endif
+#ifndef GLINT_BRDF_TILE_H
+#define GLINT_BRDF_TILE_H
+
+#include "brdf/lane.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* The kernel is compiled for three generations of x86-64, and the best one that the processor has
+ * is chosen when the program is loaded. Sanitizers cannot run the code that chooses, and only GCC
+ * with glibc offers it. */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__GLIBC__) &&       \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(BRDF_NO_CLONES)
+#define BRDF_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define BRDF_CLONES
+#endif
+
+#endif
+
+static double brdf_eval(const double *coef, const double i[3], const double r[3])
+{
+    if (!(i[2] > BRDF_EDGE && r[2] > BRDF_EDGE)) return 0.0;
+    brdf_lane l = {.ci = i[2], .cr = r[2], .it = i[0], .ib = i[1], .rt = r[0], .rb = r[1]};
+    l.ht = l.it + l.rt;
+    l.hb = l.ib + l.rb;
+    l.hn = l.ci + l.cr;
+    l.hh = l.ht * l.ht + l.hb * l.hb + l.hn * l.hn;
+    l.hlen = sqrt(l.hh);
+    return BRDF_LANE(coef, &l);
+}
+
+BRDF_CLONES
+static void brdf_tile(const double *coef, double weight, const brdf_facets *facets,
+                      const brdf_light *light, const double *visible, double sum[BRDF_TILE])
+{
+    double c[BRDF_MAX_COEF], total[BRDF_TILE] = {0};
+    memcpy(c, coef, sizeof c);
+    for (int f = 0; f < facets->n; f++) {
+        const double n0 = facets->normal[0][f], n1 = facets->normal[1][f];
+        const double n2 = facets->normal[2][f];
+        double ci[BRDF_TILE], cr[BRDF_TILE], seen[BRDF_TILE];
+        int64_t any = 0;
+        const double *part = visible ? visible + (size_t)f * BRDF_TILE : NULL;
+        for (int k = 0; k < BRDF_TILE; k++) {
+            ci[k] = n0 * light->i[0][k] + n1 * light->i[1][k] + n2 * light->i[2][k];
+            cr[k] = n0 * light->r[0][k] + n1 * light->r[1][k] + n2 * light->r[2][k];
+        }
+        for (int k = 0; k < BRDF_TILE; k++)
+            any |= -(int64_t)(ci[k] > BRDF_EDGE) & -(int64_t)(cr[k] > BRDF_EDGE);
+        if (!any) continue;
+        const double scale = weight * facets->area[f];
+        for (int k = 0; k < BRDF_TILE; k++)
+            seen[k] = part ? scale * part[k] : scale;
+        const double t0 = facets->tangent[0][f], t1 = facets->tangent[1][f];
+        const double t2 = facets->tangent[2][f];
+        const double b0 = facets->bitangent[0][f], b1 = facets->bitangent[1][f];
+        const double b2 = facets->bitangent[2][f];
+        for (int k = 0; k < BRDF_TILE; k++) {
+            const double i0 = light->i[0][k], i1 = light->i[1][k], i2 = light->i[2][k];
+            const double r0 = light->r[0][k], r1 = light->r[1][k], r2 = light->r[2][k];
+            const double h0 = light->h[0][k], h1 = light->h[1][k], h2 = light->h[2][k];
+            const brdf_lane l = {.ci = ci[k],
+                                 .cr = cr[k],
+                                 .ht = t0 * h0 + t1 * h1 + t2 * h2,
+                                 .hb = b0 * h0 + b1 * h1 + b2 * h2,
+                                 .hn = ci[k] + cr[k],
+                                 .hh = light->hh[k],
+                                 .hlen = light->hlen[k],
+                                 .it = t0 * i0 + t1 * i1 + t2 * i2,
+                                 .ib = b0 * i0 + b1 * i1 + b2 * i2,
+                                 .rt = t0 * r0 + t1 * r1 + t2 * r2,
+                                 .rb = b0 * r0 + b1 * r1 + b2 * r2};
+            const double g = seen[k] * BRDF_LANE(c, &l);
+            total[k] += (ci[k] > BRDF_EDGE) & (cr[k] > BRDF_EDGE) ? g : 0.0;
+        }
+    }
+    for (int k = 0; k < BRDF_TILE; k++)
+        sum[k] += total[k];
+}

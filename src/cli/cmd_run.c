@@ -1,0 +1,37 @@
+#include "cli/command.h"
+#include "cli/output.h"
+#include "cli/report.h"
+
+/* Writes the table and says what came of it. */
+static glint_status write_table(glint_curve *curve, const options *o)
+{
+    glint_summary summary = {0};
+    glint_error error = {0};
+    progress_bar bar = {0};
+    const bool drawn = progress_wanted(o->quiet, o->output != NULL);
+    const glint_status status =
+        glint_table_write(curve, o->output, &summary, drawn ? progress_draw : NULL, &bar, &error);
+    progress_end(&bar);
+    if (status == GLINT_OUTPUT && !o->output && output_reader_left()) return status;
+    if (status)
+        report_error(&error);
+    else if (!o->quiet)
+        report_summary(&summary);
+    return status;
+}
+
+glint_status cmd_run(const options *o)
+{
+    glint_errors *errors = glint_errors_new();
+    glint_scenario *scenario = NULL;
+    glint_curve *curve = NULL;
+    glint_status status =
+        glint_scenario_read(o->operands[0], o->overrides, o->n_overrides, &scenario, errors);
+    if (status == GLINT_OK) status = glint_curve_open(scenario, o->threads, &curve, errors);
+    report_errors(errors, status, o->quiet);
+    if (status == GLINT_OK) status = write_table(curve, o);
+    glint_curve_close(curve);
+    glint_scenario_free(scenario);
+    glint_errors_free(errors);
+    return status;
+}

@@ -1,0 +1,168 @@
+#include "cli/command.h"
+
+#include "cli/report.h"
+#include "cli/suggest.h"
+
+#include <limits.h>
+#include <string.h>
+
+#define BIT(option) (1u << (option))
+
+enum {
+    GENERAL = BIT(OPTION_OUTPUT) | BIT(OPTION_FORMAT) | BIT(OPTION_THREADS) | BIT(OPTION_QUIET) |
+              BIT(OPTION_HELP),
+    WITH_SCENARIO = GENERAL | BIT(OPTION_SET)
+};
+
+static const char *const csv_only[] = {"csv", NULL};
+static const char *const text_only[] = {"text", NULL};
+
+static const command commands[] = {
+    {.name = "run",
+     .arguments = "SCENARIO",
+     .summary = "compute the light curve and write it as a table",
+     .details =
+         "Reads SCENARIO with the files that it names and writes a row for every step: time,\n"
+         "magnitudes, flux ratios, range, phase angle, sunlit fraction, flags, the place in the\n"
+         "sky for a site on the ground, and the shares of materials and components. The table\n"
+         "begins with a header of comments (ECSV) that holds units and the whole scenario.\n"
+         "\n"
+         "A summary on standard error ends the run.",
+     .example = "glint run scenarios/iss-vienna.toml --set time.step_s=0.5 -o iss-vienna.csv",
+     .example_doc = "the space station over Vienna in steps of half a second",
+     .formats = csv_only,
+     .options = WITH_SCENARIO,
+     .min_operands = 1,
+     .max_operands = 1,
+     .run = cmd_run},
+    {.name = "check",
+     .arguments = "FILE...",
+     .summary = "read and validate scenarios or models, and explain them",
+     .details =
+         "Reports areas, whether a body is closed, materials and their reflectance, the age of\n"
+         "element sets, what would run and what is neglected. No light curve is computed.",
+     .example = "glint check scenarios/iss-vienna.toml",
+     .example_doc = "what the scenario holds, and whether anything in it is wrong",
+     .formats = text_only,
+     .options = WITH_SCENARIO,
+     .min_operands = 1,
+     .max_operands = INT_MAX,
+     .run = cmd_check},
+    {.name = "verify",
+     .arguments = "FILE...",
+     .summary = "run scenarios and hold them against what they expect",
+     .details =
+         "Runs scenarios that carry expected values ([[expect]], [expect_table]) or requirements\n"
+         "([[require]]). Prints a line for each file, and on standard error every deviation with\n"
+         "its place in the file. A scenario that expects nothing fails.",
+     .example = "glint verify scenarios/known/*.toml",
+     .example_doc = "do all known geometries come out as they should?",
+     .formats = text_only,
+     .options = WITH_SCENARIO,
+     .min_operands = 1,
+     .max_operands = INT_MAX,
+     .run = cmd_verify},
+    {.name = "brdf list",
+     .arguments = "",
+     .summary = "list the reflectance models and their parameters",
+     .details =
+         "Each model with its source, and for every parameter the key that a material gives it\n"
+         "under, its unit, range and default.",
+     .example = "glint brdf list",
+     .example_doc = "what `brdf = \"...\"` of a material may name",
+     .formats = text_only,
+     .options = GENERAL,
+     .min_operands = 0,
+     .max_operands = 0,
+     .run = cmd_brdf_list},
+};
+
+static const char *const planned[] = {"shares", "compare", "passes",    "ephemeris",
+                                      "view",   "sweep",   "brdf show", "brdf fit"};
+
+enum {
+    N_COMMANDS = sizeof commands / sizeof *commands,
+    N_PLANNED = sizeof planned / sizeof *planned
+};
+
+const command *command_get(size_t k)
+{
+    return k < N_COMMANDS ? &commands[k] : NULL;
+}
+
+const char *command_planned(size_t k)
+{
+    return k < N_PLANNED ? planned[k] : NULL;
+}
+
+void command_names(char *out, size_t size)
+{
+    out[0] = '\0';
+    for (size_t k = 0; k < N_COMMANDS; k++) {
+        const size_t used = strlen(out);
+        snprintf(out + used, size - used, "%s%s", k ? ", " : "", commands[k].name);
+    }
+}
+
+/* How many words `name` has, when it begins the n words; 0 when it does not. */
+static int match(const char *name, int n, const char *const *words)
+{
+    const char *space = strchr(name, ' ');
+    const size_t first = space ? (size_t)(space - name) : strlen(name);
+    if (n < 1 || strlen(words[0]) != first || memcmp(words[0], name, first) != 0) return 0;
+    if (!space) return 1;
+    return n > 1 && strcmp(words[1], space + 1) == 0 ? 2 : 0;
+}
+
+bool command_in_group(const command *c, const char *group)
+{
+    const size_t n = strlen(group);
+    return strncmp(c->name, group, n) == 0 && c->name[n] == ' ';
+}
+
+/* What may follow the group's name: "list, show"; empty when there is no such group. */
+static void group_members(const char *group, char *out, size_t size)
+{
+    out[0] = '\0';
+    for (size_t k = 0; k < N_COMMANDS; k++) {
+        if (!command_in_group(&commands[k], group)) continue;
+        const size_t used = strlen(out);
+        snprintf(out + used, size - used, "%s%s", used ? ", " : "",
+                 commands[k].name + strlen(group) + 1);
+    }
+}
+
+glint_status command_find(int n, const char *const *words, const command **out, int *used,
+                          glint_error *error)
+{
+    const char *names[N_COMMANDS];
+    char list[256];
+    *out = NULL;
+    for (size_t k = 0; k < N_COMMANDS; k++) {
+        names[k] = commands[k].name;
+        *used = match(commands[k].name, n, words);
+        if (*used) {
+            *out = &commands[k];
+            return GLINT_OK;
+        }
+    }
+    command_names(list, sizeof list);
+    for (size_t k = 0; k < N_PLANNED; k++)
+        if (match(planned[k], n, words))
+            return error_say(error, GLINT_ARGUMENT, "'%s' is not built yet; this version has: %s",
+                             planned[k], list);
+    char members[128];
+    group_members(words[0], members, sizeof members);
+    if (members[0] && n > 1)
+        return error_say(error, GLINT_ARGUMENT, "'glint %s' has no '%s'; it has: %s", words[0],
+                         words[1], members);
+    if (members[0])
+        return error_say(error, GLINT_ARGUMENT, "'glint %s' needs one more word: %s", words[0],
+                         members);
+    const char *near = suggest(words[0], names, N_COMMANDS);
+    if (near)
+        return error_say(error, GLINT_ARGUMENT, "unknown command '%s'; did you mean '%s'?",
+                         words[0], near);
+    return error_say(error, GLINT_ARGUMENT, "unknown command '%s'; this version has: %s", words[0],
+                     list);
+}

@@ -1,0 +1,67 @@
+/* options.h: the options of all commands in one table, and reading them from a command line. */
+#ifndef GLINT_CLI_OPTIONS_H
+#define GLINT_CLI_OPTIONS_H
+
+#include <glint/glint.h>
+
+/* An option: its row in the table, and its bit (1u << id) in the set that a command takes. */
+typedef enum option_id {
+    OPTION_OUTPUT,
+    OPTION_FORMAT,
+    OPTION_SET,
+    OPTION_THREADS,
+    OPTION_QUIET,
+    OPTION_HELP,
+    OPTION_VERSION,
+    OPTION_MAN,
+    OPTION_COMPLETION,
+    OPTION_COUNT
+} option_id;
+
+/* The options that `glint` itself takes, with no command. */
+enum {
+    PROGRAM_OPTIONS =
+        1u << OPTION_HELP | 1u << OPTION_VERSION | 1u << OPTION_MAN | 1u << OPTION_COMPLETION
+};
+
+/* What help, the manual and completion say of an option. */
+typedef struct option_info {
+    char letter;       /* '\0': long form only */
+    const char *name;  /* without the dashes */
+    const char *value; /* what its value is called; NULL where it takes none */
+    const char *doc;   /* begins in lower case, no full stop */
+} option_info;
+
+/* Row `id` of the table. */
+const option_info *option_get(option_id id);
+
+/* A command line that has been read. The texts are borrowed from argv. */
+typedef struct options {
+    unsigned given;         /* bits of the options that stood on the line */
+    const char *output;     /* NULL: standard output */
+    const char *format;     /* NULL: the command's first */
+    const char *completion; /* the shell that --completion names */
+    int threads;            /* 0: all processors */
+    bool quiet;             /* nothing but errors on standard error */
+    const char **overrides; /* owned; "key=value" */
+    const char **operands;  /* owned; what is no option */
+    size_t n_overrides, n_operands;
+} options;
+
+/* Reads n words: `--name value`, `--name=value`, `-o value`, `-ovalue`, joined letters (`-qo
+ * value`);
+ * `--` ends the options, `-` is an operand. accepted: bits of the options that are known here;
+ * formats: what --format may name, NULL at the end (NULL where --format is not accepted).
+ * Errors: GLINT_ARGUMENT, naming the nearest option where the given one is unknown; GLINT_INTERNAL.
+ * options_free ends *out in every case. */
+glint_status options_read(int n, char *const *words, unsigned accepted, const char *const *formats,
+                          options *out, glint_error *error);
+void options_free(options *o);
+
+/* True when that option stood on the line. */
+static inline bool options_has(const options *o, option_id id)
+{
+    return o->given >> id & 1u;
+}
+
+#endif

@@ -1,0 +1,84 @@
+#include "base/vec.h"
+#include "facets/primitive.h"
+
+#include <assert.h>
+#include <limits.h>
+#include <stdlib.h>
+
+void facet_list_free(facet_list *list)
+{
+    if (!list) return;
+    free(list->items);
+    free(list->vertices);
+    *list = (facet_list){0};
+}
+
+/* The capacity for `needed` entries: at least doubled, so that appending costs O(1) on average. */
+static int grown(int capacity, int needed)
+{
+    const int twice = capacity > INT_MAX / 2 ? INT_MAX : 2 * capacity;
+    return twice > needed ? twice : needed;
+}
+
+glint_status facet_list_reserve(facet_list *list, int n_facets, int n_vertices, glint_error *error)
+{
+    assert(n_facets >= 0 && n_vertices >= 0);
+    if (n_facets > INT_MAX - list->n || n_vertices > INT_MAX - list->n_vertices)
+        return error_no_memory(error);
+    if (list->n + n_facets > list->capacity) {
+        const int capacity = grown(list->capacity, list->n + n_facets);
+        facet *items = realloc(list->items, (size_t)capacity * sizeof *items);
+        if (!items) return error_no_memory(error);
+        list->items = items;
+        list->capacity = capacity;
+    }
+    if (list->n_vertices + n_vertices > list->vertex_capacity) {
+        const int capacity = grown(list->vertex_capacity, list->n_vertices + n_vertices);
+        double(*vertices)[3] = realloc(list->vertices, (size_t)capacity * sizeof *vertices);
+        if (!vertices) return error_no_memory(error);
+        list->vertices = vertices;
+        list->vertex_capacity = capacity;
+    }
+    return GLINT_OK;
+}
+
+/* Unit normal and area of a polygon (Newell's method: half the sum of the cross products of
+ * neighbouring vertices). The products are taken from the first vertex, so that a small polygon far
+ * from the origin loses no digits. */
+static double newell(const double (*vertices)[3], int n, double normal[3])
+{
+    double twice_area[3] = {0, 0, 0};
+    double a[3], b[3], c[3];
+    sub3(vertices[1], vertices[0], a);
+    for (int k = 2; k < n; k++) {
+        sub3(vertices[k], vertices[0], b);
+        cross3(a, b, c);
+        add3(twice_area, c, twice_area);
+        copy3(b, a);
+    }
+    return 0.5 * unit3(twice_area, normal);
+}
+
+glint_status facet_list_add(facet_list *list, const double (*vertices)[3], int n,
+                            const double tangent[3], int material, int component,
+                            glint_error *error)
+{
+    assert(n >= 3);
+    facet f = {.first_vertex = list->n_vertices,
+               .n_vertices = n,
+               .material = material,
+               .component = component};
+    f.area_m2 = newell(vertices, n, f.normal);
+    if (!(f.area_m2 > 0.0))
+        return error_set(error, GLINT_INPUT, PLACE_NONE,
+                         "a facet encloses no area; expected corners that are not on one line");
+    const double across = perp3(tangent, f.normal, f.tangent);
+    assert(across > 0.0);
+    (void)across;
+    const glint_status status = facet_list_reserve(list, 1, n, error);
+    if (status) return status;
+    memcpy(list->vertices + list->n_vertices, vertices, (size_t)n * sizeof *vertices);
+    list->n_vertices += n;
+    list->items[list->n++] = f;
+    return GLINT_OK;
+}

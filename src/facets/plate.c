@@ -1,0 +1,80 @@
+/* A flat rectangle. */
+#include "base/vec.h"
+#include "facets/primitive_kinds.h"
+
+enum { SIZE, CENTRE, NORMAL, TANGENT, MATERIAL, BACK_MATERIAL, N_KEYS };
+
+static const primitive_key keys[N_KEYS] = {
+    [SIZE] = {.name = "size_m",
+              .unit = "m",
+              .doc = "lengths along the tangent and along normal x tangent",
+              .kind = KEY_VECTOR,
+              .length = 2,
+              .required = true,
+              LENGTH_RANGE},
+    [CENTRE] = CENTRE_KEY,
+    [NORMAL] = {.name = "normal",
+                .unit = "",
+                .doc = "direction in which the front looks",
+                .kind = KEY_DIRECTION,
+                .required = true},
+    [TANGENT] = {.name = "tangent",
+                 .unit = "",
+                 .doc = "direction of the first side, made orthogonal to the normal",
+                 .kind = KEY_DIRECTION,
+                 .required = true},
+    [MATERIAL] = {.name = "material",
+                  .unit = "",
+                  .doc = "material of the front",
+                  .kind = KEY_MATERIAL,
+                  .required = true},
+    [BACK_MATERIAL] = {.name = "back_material",
+                       .unit = "",
+                       .doc = "material of the back; absent: black, but it still casts shadows",
+                       .kind = KEY_MATERIAL},
+};
+
+static glint_status check(const primitive_spec *spec, glint_errors *errors)
+{
+    if (primitive_key_sound(spec, NORMAL) && primitive_key_sound(spec, TANGENT) &&
+        primitive_parallel(spec->value[NORMAL], spec->value[TANGENT]))
+        return errors_add(errors, GLINT_INPUT, spec->key_place[TANGENT],
+                          "tangent is along the normal; expected a direction across it");
+    return GLINT_OK;
+}
+
+static glint_status build(const primitive_spec *spec, int component, facet_list *out,
+                          glint_error *error)
+{
+    double n[3], t[3], b[3];
+    unit3(spec->value[NORMAL], n);
+    perp3(spec->value[TANGENT], n, t);
+    cross3(n, t, b);
+    /* Corners in the order that runs from t to b, which is anticlockwise about n = t x b. */
+    static const double corner[4][2] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+    double front[4][3], back[4][3];
+    for (int k = 0; k < 4; k++) {
+        add_scaled3(spec->value[CENTRE], corner[k][0] * spec->value[SIZE][0], t, front[k]);
+        add_scaled3(front[k], corner[k][1] * spec->value[SIZE][1], b, front[k]);
+        copy3(front[k], back[3 - k]);
+    }
+    const glint_status status =
+        facet_list_add(out, front, 4, t, spec->material[MATERIAL], component, error);
+    if (status || spec->material[BACK_MATERIAL] == PRIMITIVE_NO_MATERIAL) return status;
+    return facet_list_add(out, back, 4, t, spec->material[BACK_MATERIAL], component, error);
+}
+
+static void centre(const primitive_spec *spec, double out[3])
+{
+    copy3(spec->value[CENTRE], out);
+}
+
+const primitive_kind primitive_plate = {
+    .name = "plate",
+    .doc = "flat rectangle that reflects in front, and behind where back_material is given",
+    .keys = keys,
+    .n_keys = N_KEYS,
+    .check = check,
+    .build = build,
+    .centre = centre,
+};

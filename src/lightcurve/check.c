@@ -1,0 +1,183 @@
+/* check.c: describes a scenario or a model without computing a curve. */
+#include "base/constants.h"
+#include "base/text.h"
+#include "lightcurve/columns.h"
+#include "lightcurve/facts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static void report_time(const glint_scenario *s, text *t)
+{
+    glint_utc start, end;
+    run_clock_utc(&s->clock, 0, &start);
+    run_clock_utc(&s->clock, (double)(s->n_steps - 1) * s->step_s, &end);
+    char a[UTC_TEXT_SIZE], b[UTC_TEXT_SIZE];
+    utc_write(&start, a);
+    utc_write(&end, b);
+    text_printf(t, "time        %.19sZ to %.19sZ, every %g s: %lld rows\n", a, b, s->step_s,
+                (long long)s->n_steps);
+    if (s->clock.n_leaps)
+        text_printf(t, "            with %d leap second%s on the way\n", s->clock.n_leaps,
+                    s->clock.n_leaps > 1 ? "s" : "");
+    text_printf(t, "observer    %s%slatitude %.6g deg, longitude %.6g deg, height %g m; nothing below "
+                   "%g deg\n",
+                s->site_name, s->site_name[0] ? ": " : "", s->site.latitude / DEG,
+                s->site.longitude / DEG, s->site.height_m, s->min_elevation / DEG);
+    char *line = fact_orbit(s);
+    text_printf(t, "orbit       %s\n", line ? line : "");
+    free(line);
+    text_printf(t, "attitude    %s%s\n", s->attitude.law->name,
+                s->attitude.has_offset ? ", with an offset" : "");
+}
+
+static void report_hinge(const hinge *h, text *t)
+{
+    if (h->drive == HINGE_FIXED)
+        text_printf(t, "fixed at %g deg", (h->angle + h->offset) / DEG);
+    else if (h->drive == HINGE_RATE)
+        text_printf(t, "turns at %g deg/s", h->rate_rad_s / DEG);
+    else if (h->target.kind < DIRECTION_STAR)
+        text_printf(t, "tracks %s", direction_word((size_t)h->target.kind));
+    else
+        text_add(t, h->target.kind == DIRECTION_STAR ? "tracks a star" : "tracks a place");
+    if (h->drive != HINGE_FIXED && h->offset != 0)
+        text_printf(t, " with an offset of %g deg", h->offset / DEG);
+    if (h->has_limits)
+        text_printf(t, " between %g and %g deg", h->limits[0] / DEG, h->limits[1] / DEG);
+}
+
+static glint_status report_components(const satellite *sat, text *t, glint_error *error)
+{
+    text_printf(t, "satellite   %d facets, %d components, %d materials\n", sat->model.n_facets,
+                sat->n_components, sat->n_materials);
+    for (int c = 0; c < sat->n_components; c++) {
+        const scenario_component *component = &sat->components[c];
+        model_component_facts facts;
+        const glint_status status = model_component_describe(&sat->model, c, &facts, error);
+        if (status) return status;
+        text_printf(t, "  component %-20s", component->name);
+        if (facts.n_facets)
+            text_printf(t, " %6d facets  %10.4g m^2  %s", facts.n_facets, facts.area_m2,
+                        facts.closed ? "closed" : "open");
+        else
+            text_add(t, "      a joint without facets");
+        if (component->parent >= 0)
+            text_printf(t, "  on %s", sat->components[component->parent].name);
+        if (component->has_hinge) {
+            text_add(t, ", ");
+            report_hinge(&component->hinge, t);
+        }
+        text_char(t, '\n');
+        if (facts.n_facets)
+            text_printf(t, "            x %.4g to %.4g, y %.4g to %.4g, z %.4g to %.4g m\n",
+                        facts.lo_m[0], facts.hi_m[0], facts.lo_m[1], facts.hi_m[1], facts.lo_m[2],
+                        facts.hi_m[2]);
+    }
+    return GLINT_OK;
+}
+
+static void report_lobe(const brdf_lobe *lobe, text *t)
+{
+    if (lobe->weight != 1) text_printf(t, "%g x ", lobe->weight);
+    text_add(t, lobe->model->name);
+    for (int k = 0; k < lobe->model->n_params; k++)
+        if (!isnan(lobe->params[k]))
+            text_printf(t, " %s=%g", lobe->model->params[k].name, lobe->params[k]);
+}
+
+static void report_materials(const glint_scenario *s, text *t)
+{
+    const satellite *sat = &s->satellite;
+    for (int m = 0; m < sat->n_materials; m++) {
+        int n_facets;
+        const double area_m2 = model_material_area(&sat->model, m, &n_facets);
+        text_printf(t, "  material  %-20s %6d facets  %10.4g m^2", sat->materials[m].name, n_facets,
+                    area_m2);
+        if (sat->materials[m].source[0]) text_printf(t, "  (%s)", sat->materials[m].source);
+        text_char(t, '\n');
+        for (int b = 0; b < s->n_bands; b++) {
+            if (sat->model.same_band[m * s->n_bands + b] != b) continue;
+            text_printf(t, "            %s: ", s->bands[b]->name);
+            for (int l = 0; l < sat->materials[m].bands[b].n_lobes; l++) {
+                if (l) text_add(t, " + ");
+                report_lobe(&sat->materials[m].bands[b].lobes[l], t);
+            }
+            text_char(t, '\n');
+        }
+    }
+}
+
+static void report_run(const glint_scenario *s, text *t)
+{
+    fact_list facts = {0};
+    facts_of_run(s, &facts);
+    for (size_t i = 0; i < facts.n; i++)
+        if (!string_equal(facts.items[i].key, "glint_version") &&
+            !string_equal(facts.items[i].key, "title") &&
+            !string_equal(facts.items[i].key, "orbit"))
+            text_printf(t, "%-23s %s\n", facts.items[i].key, facts.items[i].value);
+    fact_list_free(&facts);
+    column_set columns;
+    if (column_set_make(s, &columns, NULL) == GLINT_OK) {
+        text_add(t, "columns     ");
+        for (size_t i = 0; i < columns.n; i++)
+            text_printf(t, "%s%s", i ? "," : "", columns.columns[i].name);
+        text_char(t, '\n');
+        column_set_free(&columns);
+    }
+    const int64_t expected = s->n_expectations + s->n_requirements;
+    if (expected || s->has_expected_table)
+        text_printf(t, "verify      %lld values and requirements%s\n", (long long)expected,
+                    s->has_expected_table ? ", and a table of expected values" : "");
+}
+
+static glint_status describe(const glint_scenario *s, bool is_model, text *t, glint_error *error)
+{
+    text_printf(t, "%s: %s\n", s->documents[0]->path, is_model ? "a model" : "a scenario");
+    if (s->title[0]) text_printf(t, "title       %s\n", s->title);
+    if (!is_model && s->has_geometry)
+        text_printf(t, "geometry    %lld pairs of directions, given in the body frame\n",
+                    (long long)s->geometry.n);
+    else if (!is_model)
+        report_time(s, t);
+    const glint_status status = report_components(&s->satellite, t, error);
+    if (status) return status;
+    report_materials(s, t);
+    if (!is_model) report_run(s, t);
+    return GLINT_OK;
+}
+
+/* Whether the file holds a model; a file that cannot be read says so when it is read for good. */
+static bool is_model_file(const char *path)
+{
+    toml_document *document;
+    if (toml_read(path, PLACE_NONE, &document, NULL)) return false;
+    const bool is_model = scenario_is_model(document);
+    toml_free(document);
+    return is_model;
+}
+
+glint_status glint_check(const char *path, const char *const *overrides, size_t n_overrides,
+                         char **report, glint_errors *errors)
+{
+    *report = NULL;
+    const bool is_model = is_model_file(path);
+    glint_scenario *s;
+    glint_status status =
+        is_model ? scenario_read_model(path, overrides, n_overrides, &s, errors)
+                 : glint_scenario_read(path, overrides, n_overrides, &s, errors);
+    if (status) return status;
+    text t = {0};
+    glint_error error;
+    status = describe(s, is_model, &t, &error);
+    glint_scenario_free(s);
+    if (!status && t.failed) status = error_no_memory(&error);
+    if (status) {
+        text_free(&t);
+        return errors_take(errors, &error, PLACE_NONE);
+    }
+    *report = t.data;
+    return GLINT_OK;
+}

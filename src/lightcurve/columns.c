@@ -1,0 +1,158 @@
+#include "lightcurve/columns.h"
+
+#include "base/constants.h"
+#include "base/text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Adds a column whose name is `name` and `rest` put together. */
+static bool add(column_set *set, column_kind kind, int index, const char *name, const char *rest,
+                const char *unit, const char *description)
+{
+    const size_t n = set->n;
+    char *whole = malloc(strlen(name) + strlen(rest) + 1);
+    if (!whole) return false;
+    strcpy(whole, name);
+    strcat(whole, rest);
+    set->names[n] = whole;
+    set->kinds[n] = kind;
+    set->indices[n] = index;
+    set->columns[n] = (glint_column){whole, unit, description,
+                                     kind == COLUMN_UTC || kind == COLUMN_FLAGS};
+    set->n++;
+    return true;
+}
+
+static bool add_bands(const glint_scenario *s, column_set *set)
+{
+    bool good = true;
+    for (int b = 0; b < s->n_bands; b++)
+        good = good && add(set, COLUMN_MAGNITUDE, b, "mag_", s->bands[b]->name, "mag",
+                           "apparent magnitude; empty when dark");
+    for (int b = 0; b < s->n_bands; b++)
+        good = good && add(set, COLUMN_FLUX, b, "flux_ratio_", s->bands[b]->name, "",
+                           "irradiance at the observer over the Sun's at 1 au, no extinction");
+    return good;
+}
+
+static bool add_site(column_set *set)
+{
+    return add(set, COLUMN_AZIMUTH, 0, "azimuth_deg", "", "deg", "from north through east") &&
+           add(set, COLUMN_ELEVATION, 0, "elevation_deg", "", "deg", "geometric") &&
+           add(set, COLUMN_SUN_ELEVATION, 0, "sun_elevation_deg", "", "deg",
+               "of the Sun at the site, geometric") &&
+           add(set, COLUMN_AIRMASS, 0, "airmass", "", "",
+               "Kasten and Young 1989; empty below the horizon");
+}
+
+static bool add_shares(const glint_scenario *s, column_set *set)
+{
+    const model *m = &s->satellite.model;
+    bool good = true;
+    for (int i = 0; s->shares & SHARES_MATERIAL && i < m->n_materials; i++)
+        good = good && add(set, COLUMN_SHARE_MATERIAL, i, "share_material_", m->materials[i].name,
+                           "", "share of the first band's flux; empty when dark");
+    for (int i = 0; s->shares & SHARES_COMPONENT && i < m->n_components; i++)
+        good = good &&
+               add(set, COLUMN_SHARE_COMPONENT, i, "share_component_", m->components[i].name, "",
+                   "share of the first band's flux, without the component's children; empty when "
+                   "dark");
+    return good;
+}
+
+glint_status column_set_make(const glint_scenario *s, column_set *set, glint_error *error)
+{
+    const model *m = &s->satellite.model;
+    const size_t most = 16 + 2 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components;
+    *set = (column_set){.columns = calloc(most, sizeof *set->columns),
+                        .kinds = calloc(most, sizeof *set->kinds),
+                        .indices = calloc(most, sizeof *set->indices),
+                        .names = calloc(most, sizeof *set->names)};
+    bool good = set->columns && set->kinds && set->indices && set->names;
+    if (good && !s->has_geometry)
+        good = add(set, COLUMN_UTC, 0, "utc", "", "", "UTC of reception at the observer");
+    good = good && add(set, COLUMN_T, 0, "t_s", "", "s", "TT seconds from the start") &&
+           add_bands(s, set) &&
+           add(set, COLUMN_RANGE, 0, "range_km", "", "km", "observer to satellite") &&
+           add(set, COLUMN_PHASE, 0, "phase_angle_deg", "", "deg",
+               "at the satellite, between Sun and observer; 0 is full") &&
+           add(set, COLUMN_SUNLIT, 0, "sunlit_fraction", "", "",
+               "visible part of the solar disc, seen from the satellite") &&
+           add(set, COLUMN_FLAGS, 0, "flags", "", "", "why the row is faint or dark") &&
+           (s->has_geometry || add_site(set)) && add_shares(s, set);
+    if (good) return GLINT_OK;
+    column_set_free(set);
+    return error_no_memory(error);
+}
+
+void column_set_free(column_set *set)
+{
+    for (size_t i = 0; set->names && i < set->n; i++)
+        free(set->names[i]);
+    free(set->names);
+    free(set->columns);
+    free(set->kinds);
+    free(set->indices);
+    *set = (column_set){0};
+}
+
+bool column_value(const column_set *set, const glint_row *row, size_t column, double *value)
+{
+    const int i = set->indices[column];
+    switch (set->kinds[column]) {
+    case COLUMN_UTC:
+    case COLUMN_FLAGS: return false;
+    case COLUMN_T: *value = row->t_s; return true;
+    case COLUMN_MAGNITUDE: *value = row->magnitude[i]; return row->flux_ratio[i] > 0;
+    case COLUMN_FLUX: *value = row->flux_ratio[i]; return true;
+    case COLUMN_RANGE: *value = row->range_m * 1e-3; return true;
+    case COLUMN_PHASE: *value = row->phase_angle_rad / DEG; return true;
+    case COLUMN_SUNLIT: *value = row->sunlit_fraction; return true;
+    case COLUMN_AZIMUTH: *value = row->azimuth_rad / DEG; return true;
+    case COLUMN_ELEVATION: *value = row->elevation_rad / DEG; return true;
+    case COLUMN_SUN_ELEVATION: *value = row->sun_elevation_rad / DEG; return true;
+    case COLUMN_AIRMASS: *value = row->airmass; return row->airmass > 0;
+    case COLUMN_SHARE_MATERIAL: *value = row->share_material[i]; return row->flux_ratio[0] > 0;
+    case COLUMN_SHARE_COMPONENT: *value = row->share_component[i]; return row->flux_ratio[0] > 0;
+    }
+    return false;
+}
+
+static size_t write_flags(unsigned flags, char *out)
+{
+    static const struct {
+        unsigned flag;
+        const char *name;
+    } NAMES[] = {{GLINT_BELOW_HORIZON, "below-horizon"},
+                 {GLINT_UMBRA, "umbra"},
+                 {GLINT_PENUMBRA, "penumbra"},
+                 {GLINT_DARK, "dark"},
+                 {GLINT_SITE_DARK, "site-dark"}};
+    size_t n = 0;
+    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; k++) {
+        if (!(flags & NAMES[k].flag)) continue;
+        if (n) out[n++] = '|';
+        const size_t length = strlen(NAMES[k].name);
+        memcpy(out + n, NAMES[k].name, length);
+        n += length;
+    }
+    out[n] = '\0';
+    return n;
+}
+
+size_t column_text(const column_set *set, const glint_row *row, size_t column,
+                   char out[GLINT_CELL_SIZE])
+{
+    double value;
+    size_t n = 0;
+    if (set->kinds[column] == COLUMN_UTC) {
+        utc_write(&row->utc, out);
+        return UTC_TEXT_SIZE - 1;
+    }
+    if (set->kinds[column] == COLUMN_FLAGS) return write_flags(row->flags, out);
+    if (column_value(set, row, column, &value)) n = number_format(value, out);
+    out[n] = '\0';
+    return n;
+}

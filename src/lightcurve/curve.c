@@ -1,0 +1,288 @@
+#include "base/error.h"
+
+#include "base/constants.h"
+#include "lightcurve/columns.h"
+#include "lightcurve/facts.h"
+#include "lightcurve/photometry.h"
+
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glint_version.h"
+
+/* Rows that are computed together. A multiple of TILE; large enough that threads rarely wait for each
+ * other, small enough to stay in the cache. */
+enum { BLOCK_TILES = 128, BLOCK = BLOCK_TILES * TILE };
+
+/* What one thread needs for a tile. */
+typedef struct worker {
+    geometry_worker geometry;
+    tile_geometry tile;
+    brdf_light *lights; /* owned; n_components */
+    double *x;          /* owned; n_bands x n_spans x TILE */
+} worker;
+
+struct glint_curve {
+    const glint_scenario *s; /* borrowed */
+    unsigned wanted;         /* of the geometry */
+    int n_threads;
+    worker *workers;  /* owned; n_threads */
+    frame_grid *grid; /* owned; covers grid_from_s to grid_to_s */
+    double grid_from_s, grid_to_s;
+    int64_t next; /* first step of the next block */
+    glint_row *rows, *chosen; /* owned; BLOCK */
+    double *flux_ratio, *magnitude, *share_material, *share_component; /* owned */
+    column_set columns;
+    fact_list facts;
+};
+
+static void *aligned(size_t n, size_t size)
+{
+    const size_t bytes = (n * size + 63) / 64 * 64;
+    void *memory = aligned_alloc(64, bytes ? bytes : 64);
+    if (memory) memset(memory, 0, bytes ? bytes : 64);
+    return memory;
+}
+
+static bool make_workers(glint_curve *c)
+{
+    const model *m = &c->s->satellite.model;
+    c->workers = calloc((size_t)c->n_threads, sizeof *c->workers);
+    if (!c->workers) return false;
+    for (int i = 0; i < c->n_threads; i++) {
+        worker *w = &c->workers[i];
+        w->lights = aligned((size_t)m->n_components, sizeof *w->lights);
+        w->x = aligned((size_t)m->n_bands * (size_t)m->n_spans * TILE, sizeof *w->x);
+        w->geometry.component_gcrs =
+            calloc((size_t)m->n_components, sizeof *w->geometry.component_gcrs);
+        if (!w->lights || !w->x || !w->geometry.component_gcrs) return false;
+    }
+    return true;
+}
+
+static bool make_rows(glint_curve *c)
+{
+    const model *m = &c->s->satellite.model;
+    c->rows = calloc(BLOCK, sizeof *c->rows);
+    c->chosen = calloc(BLOCK, sizeof *c->chosen);
+    c->flux_ratio = calloc((size_t)BLOCK * (size_t)c->s->n_bands, sizeof(double));
+    c->magnitude = calloc((size_t)BLOCK * (size_t)c->s->n_bands, sizeof(double));
+    c->share_material = calloc((size_t)BLOCK * (size_t)m->n_materials, sizeof(double));
+    c->share_component = calloc((size_t)BLOCK * (size_t)m->n_components, sizeof(double));
+    return c->rows && c->chosen && c->flux_ratio && c->magnitude && c->share_material &&
+           c->share_component;
+}
+
+static bool asks_for_height(const glint_scenario *s)
+{
+    for (int i = 0; i < s->n_requirements; i++)
+        if (s->requirements[i].has_reference) return true;
+    return false;
+}
+
+glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint_curve **out,
+                              glint_errors *errors)
+{
+    enum { MOST_THREADS = 1024 };
+    *out = NULL;
+    if (threads < 0 || threads > MOST_THREADS)
+        return errors_add(errors, GLINT_ARGUMENT, PLACE_NONE,
+                          "%d threads asked for; expected 1 to %d, or 0 for all processors",
+                          threads, MOST_THREADS);
+    glint_curve *c = calloc(1, sizeof *c);
+    if (!c) return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+    c->s = scenario;
+    c->n_threads = threads > 0 ? threads : omp_get_num_procs();
+    if (asks_for_height(scenario)) c->wanted |= GEOMETRY_HEIGHT;
+    glint_error error = {0};
+    const glint_status status = column_set_make(scenario, &c->columns, &error);
+    facts_of_run(scenario, &c->facts);
+    if (status || c->facts.failed || !make_workers(c) || !make_rows(c)) {
+        glint_curve_close(c);
+        return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+    }
+    *out = c;
+    return GLINT_OK;
+}
+
+void glint_curve_close(glint_curve *c)
+{
+    if (!c) return;
+    for (int i = 0; c->workers && i < c->n_threads; i++) {
+        free(c->workers[i].lights);
+        free(c->workers[i].x);
+        free(c->workers[i].geometry.component_gcrs);
+    }
+    free(c->workers);
+    frame_grid_free(c->grid);
+    free(c->rows);
+    free(c->chosen);
+    free(c->flux_ratio);
+    free(c->magnitude);
+    free(c->share_material);
+    free(c->share_component);
+    column_set_free(&c->columns);
+    fact_list_free(&c->facts);
+    free(c);
+}
+
+int64_t glint_curve_length(const glint_curve *c)
+{
+    return c->s->n_steps;
+}
+
+double glint_curve_step_s(const glint_curve *c)
+{
+    return c->s->has_geometry ? 0 : c->s->step_s;
+}
+
+/* Has the frames of the block's times at hand. The grid is laid out for a few days at once, since its
+ * nodes are dear. */
+static glint_status cover_block(glint_curve *c, int64_t n, glint_error *error)
+{
+    static const double AHEAD_S = 4 * DAY_S;
+    if (c->s->has_geometry) return GLINT_OK;
+    const double step_s = c->s->step_s, from_s = (double)c->next * step_s;
+    const double to_s = (double)(c->next + n - 1) * step_s;
+    if (c->grid && from_s >= c->grid_from_s && to_s <= c->grid_to_s) return GLINT_OK;
+    const double end_s = (double)(c->s->n_steps - 1) * step_s;
+    double reach_s = from_s + AHEAD_S < end_s ? from_s + AHEAD_S : end_s;
+    if (reach_s < to_s) reach_s = to_s;
+    const earth_orientation still = {0, 0};
+    const glint_status status =
+        frame_grid_prepare(&c->s->clock, &still, from_s, reach_s, step_s, &c->grid, error);
+    if (status) return status;
+    c->grid_from_s = from_s;
+    c->grid_to_s = reach_s;
+    return GLINT_OK;
+}
+
+/* One tile of the block: geometry, sum, photometry. */
+static glint_status compute_tile(glint_curve *c, worker *w, int64_t first, int n, int64_t at,
+                                 glint_error *error)
+{
+    const glint_scenario *s = c->s;
+    const model *m = &s->satellite.model;
+    const glint_status status = geometry_fill(s, c->grid, c->wanted, first, n, &w->geometry,
+                                              &w->tile, w->lights, error);
+    if (status) return status;
+    if (w->tile.any_bright) model_sum(m, w->lights, NULL, w->x);
+    const photometry_rows rows = {c->rows + at, c->flux_ratio + at * s->n_bands,
+                                  c->magnitude + at * s->n_bands,
+                                  c->share_material + at * m->n_materials,
+                                  c->share_component + at * m->n_components};
+    photometry_fill(s, &w->tile, w->tile.any_bright ? w->x : NULL, &rows);
+    return GLINT_OK;
+}
+
+/* All tiles of the block, over the threads; tiles are the same for any number of them. The error of the
+ * earliest tile wins. */
+static glint_status compute_block(glint_curve *c, int64_t n, glint_error *error)
+{
+    const int n_tiles = (int)((n + TILE - 1) / TILE);
+    int failed_tile = n_tiles;
+    glint_status failed = GLINT_OK;
+#pragma omp parallel for schedule(dynamic) num_threads(c->n_threads) if (n_tiles > 1)
+    for (int tile = 0; tile < n_tiles; tile++) {
+        glint_error own = {0};
+        const int64_t at = (int64_t)tile * TILE;
+        const int rows = n - at < TILE ? (int)(n - at) : TILE;
+        worker *w = &c->workers[omp_get_thread_num()];
+        const glint_status status = compute_tile(c, w, c->next + at, rows, at, &own);
+        if (!status) continue;
+#pragma omp critical(glint_first_error)
+        if (tile < failed_tile) {
+            failed_tile = tile;
+            failed = status;
+            if (error) *error = own;
+        }
+    }
+    return failed;
+}
+
+/* Whether [output] rows lets a row through. */
+static bool is_wanted(const glint_scenario *s, const glint_row *row)
+{
+    if (s->rows == ROWS_ALL) return true;
+    if (row->flags & (GLINT_BELOW_HORIZON | GLINT_UMBRA)) return false;
+    return s->rows == ROWS_VISIBLE || row->flags & GLINT_SITE_DARK;
+}
+
+glint_status glint_curve_next(glint_curve *c, const glint_row **rows, size_t *n,
+                              glint_error *error)
+{
+    *rows = c->chosen;
+    *n = 0;
+    while (*n == 0 && c->next < c->s->n_steps) {
+        const int64_t left = c->s->n_steps - c->next, count = left < BLOCK ? left : BLOCK;
+        glint_status status = cover_block(c, count, error);
+        if (!status) status = compute_block(c, count, error);
+        if (status) {
+            if (error && !error->file[0])
+                snprintf(error->file, sizeof error->file, "%s", c->s->documents[0]->path);
+            return status;
+        }
+        for (int64_t k = 0; k < count; k++)
+            if (is_wanted(c->s, &c->rows[k])) c->chosen[(*n)++] = c->rows[k];
+        c->next += count;
+    }
+    return GLINT_OK;
+}
+
+int64_t glint_curve_done(const glint_curve *c)
+{
+    return c->next;
+}
+
+int glint_curve_threads(const glint_curve *c)
+{
+    return c->n_threads;
+}
+
+bool glint_curve_fact(const glint_curve *c, size_t k, const char **key, const char **value)
+{
+    if (k >= c->facts.n) return false;
+    *key = c->facts.items[k].key;
+    *value = c->facts.items[k].value;
+    return true;
+}
+
+const char *glint_curve_scenario(const glint_curve *c)
+{
+    return c->s->text;
+}
+
+const char *glint_curve_band(const glint_curve *c)
+{
+    return c->s->bands[0]->name;
+}
+
+const glint_column *glint_curve_columns(const glint_curve *c, size_t *n)
+{
+    *n = c->columns.n;
+    return c->columns.columns;
+}
+
+bool glint_curve_value(const glint_curve *c, const glint_row *row, size_t column, double *value)
+{
+    return column < c->columns.n && column_value(&c->columns, row, column, value);
+}
+
+size_t glint_curve_text(const glint_curve *c, const glint_row *row, size_t column,
+                        char text[GLINT_CELL_SIZE])
+{
+    text[0] = '\0';
+    return column < c->columns.n ? column_text(&c->columns, row, column, text) : 0;
+}
+
+const char *glint_version(void)
+{
+    return GLINT_VERSION_TEXT;
+}
+
+void glint_free(void *memory)
+{
+    free(memory);
+}

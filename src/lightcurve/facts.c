@@ -1,0 +1,183 @@
+#include "lightcurve/facts.h"
+
+#include "base/constants.h"
+#include "base/text.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glint_version.h"
+
+static void add(fact_list *list, const char *key, const char *format, ...) GLINT_PRINTF(3, 4);
+
+static void add(fact_list *list, const char *key, const char *format, ...)
+{
+    if (list->failed) return;
+    if (list->n == list->capacity) {
+        const size_t capacity = list->capacity ? 2 * list->capacity : 32;
+        fact *items = realloc(list->items, capacity * sizeof *items);
+        if (!items) {
+            list->failed = true;
+            return;
+        }
+        list->items = items;
+        list->capacity = capacity;
+    }
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    const int n = vsnprintf(NULL, 0, format, args);
+    va_end(args);
+    fact *f = &list->items[list->n];
+    f->key = string_copy(key, strlen(key));
+    f->value = malloc((size_t)(n > 0 ? n : 0) + 1);
+    if (f->key && f->value && n >= 0) {
+        vsnprintf(f->value, (size_t)n + 1, format, again);
+        list->n++;
+    } else {
+        free(f->key);
+        free(f->value);
+        list->failed = true;
+    }
+    va_end(again);
+}
+
+void fact_list_free(fact_list *list)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        free(list->items[i].key);
+        free(list->items[i].value);
+    }
+    free(list->items);
+    *list = (fact_list){0};
+}
+
+/* FNV-1a, 64 bits (Fowler, Noll, Vo): tells scenarios apart, is no signature. */
+static uint64_t hash_text(uint64_t hash, const char *string)
+{
+    for (; *string; string++)
+        hash = (hash ^ (unsigned char)*string) * 0x100000001b3ull;
+    return (hash ^ 0xff) * 0x100000001b3ull; /* ends of texts count */
+}
+
+static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t n)
+{
+    const unsigned char *b = bytes;
+    for (size_t i = 0; i < n; i++)
+        hash = (hash ^ b[i]) * 0x100000001b3ull;
+    return hash;
+}
+
+/* Of all that decides the result: the files, what was set, the element set, the directions. */
+static uint64_t scenario_hash(const glint_scenario *s)
+{
+    uint64_t hash = 0xcbf29ce484222325ull;
+    for (int i = 0; i < s->n_documents; i++)
+        hash = hash_text(hash, s->documents[i]->text);
+    for (size_t i = 0; i < s->n_overrides; i++)
+        hash = hash_text(hash, s->overrides[i]);
+    if (!s->has_geometry && s->orbit_source == ORBIT_TLE) {
+        const double elements[] = {s->tle.epoch_jd[0],    s->tle.epoch_jd[1],
+                                   s->tle.bstar,          s->tle.inclination,
+                                   s->tle.raan,           s->tle.eccentricity,
+                                   s->tle.argument_of_perigee, s->tle.mean_anomaly,
+                                   s->tle.mean_motion};
+        hash = hash_bytes(hash, elements, sizeof elements);
+    }
+    if (s->has_geometry) {
+        const size_t n = (size_t)s->geometry.n;
+        hash = hash_bytes(hash, s->geometry.sun, n * sizeof *s->geometry.sun);
+        hash = hash_bytes(hash, s->geometry.observer, n * sizeof *s->geometry.observer);
+        hash = hash_bytes(hash, s->geometry.range_m, n * sizeof *s->geometry.range_m);
+    }
+    return hash;
+}
+
+char *fact_orbit(const glint_scenario *s)
+{
+    text out = {0};
+    const kepler_elements *k = &s->kepler;
+    switch (s->orbit_source) {
+    case ORBIT_TLE: {
+        double tt_jd[2];
+        utc_jd_to_tt(s->tle.epoch_jd, tt_jd, NULL);
+        const double days = jd_difference_s(s->clock.tt_jd, tt_jd) / DAY_S;
+        text_printf(&out,
+                    "SGP4 (AIAA 2006-6753, WGS72, mode i), element set of %s%s%d whose epoch lies "
+                    "%.3f days %s the start",
+                    s->tle.name, s->tle.name[0] ? ", number " : "number ", s->tle.number,
+                    fabs(days), days >= 0 ? "before" : "after");
+        break;
+    }
+    case ORBIT_KEPLER:
+    case ORBIT_CIRCULAR:
+        text_printf(&out,
+                    "Kepler%s, a = %.6g km, e = %.6g, i = %.6g deg; equator of date neglected",
+                    s->j2 ? " with the secular drift of J2" : ", two bodies",
+                    k->semi_major_axis_m * 1e-3, k->eccentricity, k->inclination / DEG);
+        break;
+    case ORBIT_GEOSTATIONARY:
+        text_printf(&out, "geostationary, longitude %.6g deg",
+                    s->geostationary_longitude / DEG);
+        break;
+    }
+    return out.data;
+}
+
+static void add_bands(const glint_scenario *s, fact_list *out)
+{
+    for (int b = 0; b < s->n_bands; b++) {
+        char key[32], value[NUMBER_SIZE + 1];
+        snprintf(key, sizeof key, "zero_point_%s", s->bands[b]->name);
+        value[number_format(s->sun_magnitude[b], value)] = '\0';
+        add(out, key, "apparent magnitude of the Sun %s (%s; " BAND_SOURCE ")", value,
+            magnitude_system_name(s->systems[b]));
+        if (!s->has_extinction) continue;
+        snprintf(key, sizeof key, "extinction_%s", s->bands[b]->name);
+        value[number_format(s->extinction[b], value)] = '\0';
+        add(out, key, "%s mag per airmass, in mag_%s, not in flux_ratio_%s", value,
+            s->bands[b]->name, s->bands[b]->name);
+    }
+    if (!s->has_extinction) add(out, "extinction", "none");
+}
+
+static void add_time(const glint_scenario *s, fact_list *out)
+{
+    char dut1[NUMBER_SIZE + 1];
+    dut1[number_format(s->dut1_s, dut1)] = '\0';
+    add(out, "time_scale",
+        "utc is the reception at the observer; t_s counts TT seconds from the start");
+    add(out, "dut1_s", "%s%s", dut1,
+        s->dut1_s == 0 ? " (UT1-UTC taken as 0: at most 0.9 s, 0.4 km on the equator)" : "");
+    add(out, "polar_motion", "taken as 0 (at most 0.6 arcsec, 20 m on the ground)");
+    if (s->clock.dubious) add(out, "leap_seconds", "not known for these years");
+    char *line = fact_orbit(s);
+    add(out, "orbit", "%s", line ? line : "");
+    free(line);
+    add(out, "light_time", s->light_time ? "yes" : "no");
+    add(out, "aberration", s->aberration ? "yes, of the Sun" : "no");
+    add(out, "eclipse", "WGS84 ellipsoid, uniform solar disc, no refraction in the atmosphere");
+}
+
+void facts_of_run(const glint_scenario *s, fact_list *out)
+{
+    add(out, "glint_version", GLINT_VERSION_TEXT);
+    if (s->title[0]) add(out, "title", "%s", s->title);
+    add(out, "scenario_hash", "fnv1a64:%016llx", (unsigned long long)scenario_hash(s));
+    for (size_t k = 0; k < s->n_overrides; k++)
+        add(out, "set", "%s", s->overrides[k]);
+    add_bands(s, out);
+    if (s->has_geometry)
+        add(out, "geometry", "directions given in the body frame, the Sun at 1 au");
+    else
+        add_time(s, out);
+    add(out, "self_shadows", "none: shadows that parts cast on each other are neglected");
+    add(out, "solar_disc", "point: facets see the Sun's light from the centre of its disc");
+    add(out, "earthshine", "none");
+    add(out, "not_modelled",
+        "interreflection between parts, polarisation, transmission, thermal emission, moonlight%s",
+        s->has_geometry ? "" : ", refraction of the line of sight");
+}

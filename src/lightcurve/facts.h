@@ -1,0 +1,23 @@
+/* facts.h: what a run assumes and neglects, in words: for headers and reports. */
+#ifndef GLINT_LIGHTCURVE_FACTS_H
+#define GLINT_LIGHTCURVE_FACTS_H
+
+#include "scenario/scenario.h"
+
+typedef struct fact {
+    char *key, *value; /* owned */
+} fact;
+
+typedef struct fact_list {
+    fact *items; /* owned */
+    size_t n, capacity;
+    bool failed; /* memory ran out */
+} fact_list;
+
+/* Everything that the header of a table says of the run. */
+void facts_of_run(const glint_scenario *s, fact_list *out);
+void fact_list_free(fact_list *list);
+/* The orbit in one line: its source, epoch, ...; from malloc, NULL when memory is out. */
+char *fact_orbit(const glint_scenario *s);
+
+#endif

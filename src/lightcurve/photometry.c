@@ -1,0 +1,102 @@
+#include "lightcurve/photometry.h"
+
+#include "base/constants.h"
+
+#include <math.h>
+#include <string.h>
+
+double airmass_kasten_young(double elevation)
+{
+    if (elevation < 0) return 0;
+    const double deg = elevation / DEG;
+    return 1 / (sin(elevation) + 0.50572 * pow(deg + 6.07995, -1.6364));
+}
+
+double magnitude_of(double flux_ratio, double sun_magnitude)
+{
+    return sun_magnitude - 2.5 * log10(flux_ratio);
+}
+
+/* Shares of the first band's sum by material and by component, lane k; total > 0. */
+static void fill_shares(const model *m, const double *x, int k, double total,
+                        double *share_material, double *share_component)
+{
+    for (int span = 0; span < m->n_spans; span++) {
+        const double part = x[(size_t)span * TILE + (size_t)k];
+        share_material[m->spans[span].material] += part;
+        share_component[m->spans[span].component] += part;
+    }
+    for (int i = 0; i < m->n_materials; i++)
+        share_material[i] /= total;
+    for (int i = 0; i < m->n_components; i++)
+        share_component[i] /= total;
+}
+
+/* Sum over all spans of one band, lane k, m^2/sr. */
+static double total_of(const model *m, const double *x, int band, int k)
+{
+    double total = 0;
+    for (int span = 0; span < m->n_spans; span++)
+        total += x[((size_t)band * (size_t)m->n_spans + (size_t)span) * TILE + (size_t)k];
+    return total;
+}
+
+static unsigned flags_of(const glint_scenario *s, const tile_geometry *g, int k, bool bright)
+{
+    unsigned flags = 0;
+    if (!g->seen[k]) flags |= GLINT_BELOW_HORIZON;
+    if (!(g->sunlit[k] > 0))
+        flags |= GLINT_UMBRA;
+    else if (g->sunlit[k] < 1)
+        flags |= GLINT_PENUMBRA;
+    if (!flags || flags == GLINT_PENUMBRA) flags |= bright ? 0 : GLINT_DARK;
+    if (!s->has_geometry && g->sun_elevation[k] < s->sun_elevation_max) flags |= GLINT_SITE_DARK;
+    return flags;
+}
+
+void photometry_fill(const glint_scenario *s, const tile_geometry *g, const double *x,
+                     const photometry_rows *out)
+{
+    const model *m = &s->satellite.model;
+    for (int k = 0; k < g->n; k++) {
+        const size_t row = (size_t)k;
+        double *flux = out->flux_ratio + row * (size_t)s->n_bands;
+        double *magnitude = out->magnitude + row * (size_t)s->n_bands;
+        double *material = out->share_material + row * (size_t)m->n_materials;
+        double *component = out->share_component + row * (size_t)m->n_components;
+        memset(material, 0, (size_t)m->n_materials * sizeof *material);
+        memset(component, 0, (size_t)m->n_components * sizeof *component);
+        const double airmass = s->has_geometry ? 0 : airmass_kasten_young(g->elevation[k]);
+        const double weight =
+            x && g->seen[k] ? g->sun_weight[k] / (g->range_m[k] * g->range_m[k]) : 0;
+        for (int b = 0; b < s->n_bands; b++) {
+            const double total = weight > 0 ? total_of(m, x, b, k) : 0;
+            flux[b] = weight * total;
+            magnitude[b] = 0;
+            if (flux[b] > 0)
+                magnitude[b] = magnitude_of(flux[b], s->sun_magnitude[b]) +
+                               s->extinction[b] * airmass;
+            if (b == 0 && flux[0] > 0 && s->shares)
+                fill_shares(m, x, k, total, material, component);
+        }
+        glint_row *r = &out->rows[k];
+        *r = (glint_row){.t_s = g->t_s[k],
+                         .range_m = g->range_m[k],
+                         .phase_angle_rad = g->phase_angle[k],
+                         .sunlit_fraction = g->sunlit[k],
+                         .azimuth_rad = g->azimuth[k],
+                         .elevation_rad = g->elevation[k],
+                         .sun_elevation_rad = g->sun_elevation[k],
+                         .airmass = airmass,
+                         .height_m = g->height_m[k],
+                         .flux_ratio = flux,
+                         .magnitude = magnitude,
+                         .share_material = material,
+                         .share_component = component};
+        if (s->has_geometry)
+            r->azimuth_rad = r->elevation_rad = r->sun_elevation_rad = 0;
+        else
+            run_clock_utc(&s->clock, g->t_s[k], &r->utc);
+        r->flags = flags_of(s, g, k, flux[0] > 0);
+    }
+}

@@ -1,0 +1,75 @@
+#include "orbit/eclipse.h"
+
+#include "base/constants.h"
+#include "base/vec.h"
+
+/* (equatorial/polar radius)^2 - 1 of WGS84. */
+static const double STRETCH =
+    1.0 / ((1.0 - EARTH_FLATTENING) * (1.0 - EARTH_FLATTENING)) - 1.0;
+
+/* Scalar product after a stretch along the pole that makes the ellipsoid a sphere. */
+static double stretched_dot(const double a[3], const double b[3], const double pole[3])
+{
+    return dot3(a, b) + STRETCH * dot3(a, pole) * dot3(b, pole);
+}
+
+/* Angle at the satellite between the Earth's centre and the ellipsoid's limb, on the side of p.
+ * r: from the centre to the satellite, in equatorial radii, outside the ellipsoid; p: unit vector
+ * across r. A ray r + t (-r/|r| cos x + p sin x) touches the ellipsoid where its stretched distance
+ * from the centre is 1: with g the stretched product, (g(r,w))^2 = g(w,w) (g(r,r) - 1), which is
+ * quadratic in cot x; the larger root is the limb on the side of p. */
+static double limb_angle(const double r[3], const double p[3], const double pole[3])
+{
+    const double rr = stretched_dot(r, r, pole), rp = stretched_dot(r, p, pole);
+    const double pp = stretched_dot(p, p, pole);
+    const double root = sqrt(fmax(0.0, (rr - 1.0) * (rr * pp - rp * rp)));
+    return atan2(rr, norm3(r) * (rp + root));
+}
+
+double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double sun_distance_m,
+                               const double pole[3])
+{
+    double r[3], side[3];
+    scale3(r_m, 1.0 / EARTH_RADIUS_M, r);
+    const double r2 = dot3(r, r);
+    if (!(stretched_dot(r, r, pole) > 1.0)) return 0.0;
+
+    /* Spheres around and inside the ellipsoid settle most moments without trigonometry: d is the
+     * angle Sun - satellite - centre; lit when d > limb of the outer sphere + radius of the Sun,
+     * dark when d < limb of the inner sphere - radius of the Sun. |r| cos(d) is compared. */
+    const double r_cos_d = -dot3(r, sun);
+    const double sin_sun = fmin(1.0, SUN_RADIUS_M / sun_distance_m);
+    const double cos_sun = sqrt(1.0 - sin_sun * sin_sun);
+    if (r2 > 1.0 && r_cos_d < cos_sun * sqrt(r2 - 1.0) - sin_sun) return 1.0;
+    const double polar = 1.0 - EARTH_FLATTENING, polar2 = polar * polar;
+    if (r2 * sin_sun * sin_sun < polar2 &&
+        r_cos_d > cos_sun * sqrt(r2 - polar2) + sin_sun * polar)
+        return 0.0;
+
+    const double length = sqrt(r2), down[3] = {-r[0] / length, -r[1] / length, -r[2] / length};
+    double sin_d = perp3(sun, down, side);
+    if (sin_d == 0.0) {
+        /* The Sun stands behind the very centre: any side will do. */
+        double across[3] = {0.0, 0.0, 0.0};
+        across[smallest3(down)] = 1.0;
+        perp3(across, down, side);
+    }
+    const double limb = limb_angle(r, side, pole);
+    return eclipse_disc_fraction(asin(sin_sun), limb, atan2(sin_d, dot3(sun, down)));
+}
+
+double eclipse_disc_fraction(double a, double b, double d)
+{
+    if (d >= a + b) return 1.0;
+    if (d <= b - a) return 0.0;
+    if (d <= a - b) return 1.0 - (b / a) * (b / a);
+    /* The triangle of the two centres and a crossing of the rims has sides a, b, d; four times its
+     * area by Heron gives its angles at the centres without the cancellation of acos near 1. */
+    const double area4 = sqrt(fmax(0.0, (a + b + d) * (a + b - d) * (a - b + d) * (b - a + d)));
+    const double at_a = atan2(area4, a * a + (d - b) * (d + b));
+    const double at_b = atan2(area4, b * b + (d - a) * (d + a));
+    /* Two circular segments make the lens. */
+    const double lens = a * a * (at_a - sin(at_a) * cos(at_a)) +
+                        b * b * (at_b - sin(at_b) * cos(at_b));
+    return fmin(1.0, fmax(0.0, 1.0 - lens / (PI * a * a)));
+}

@@ -1,0 +1,18 @@
+/* eclipse.h: how much of the Sun's disc a satellite sees past the Earth. */
+#ifndef GLINT_ORBIT_ECLIPSE_H
+#define GLINT_ORBIT_ECLIPSE_H
+
+/* Visible fraction, 0 to 1, of a uniform solar disc above the limb of the WGS84 ellipsoid.
+ * r_m: geocentre to satellite; sun: unit vector from the satellite to the (apparent) Sun;
+ * sun_distance_m: from the satellite; pole: unit vector along the Earth's axis; all in one frame.
+ * The limb's angle is that of the ellipsoid in the plane satellite - centre - Sun; then the overlap
+ * of two plane discs (physics page, section 7): within 3e-4 of the exact integral. A satellite
+ * inside the ellipsoid is dark. Refraction is not modelled. */
+double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double sun_distance_m,
+                               const double pole[3]);
+
+/* Uncovered fraction of a disc of angular radius a behind one of radius b at distance d (all rad,
+ * treated as plane). */
+double eclipse_disc_fraction(double a, double b, double d);
+
+#endif

@@ -1,0 +1,190 @@
+#define _GNU_SOURCE /* O_TMPFILE */
+#include "output/file.h"
+
+#include "base/text.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct out_file {
+    int fd;
+    char *path;      /* owned; where the file goes; NULL for standard output and devices */
+    char *temporary; /* owned; its name until then; NULL while it has none */
+    bool close_fd;
+    char *shown; /* owned; for messages */
+};
+
+static void release(out_file *file)
+{
+    free(file->path);
+    free(file->temporary);
+    free(file->shown);
+    free(file);
+}
+
+static glint_status fail(const char *shown, const char *what, glint_error *error)
+{
+    return error_set(error, GLINT_OUTPUT, (place){shown, 0, 0}, "cannot %s: %s", what,
+                     strerror(errno));
+}
+
+/* The folder of a path, from malloc. */
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    if (!slash) return string_copy(".", 1);
+    return string_copy(path, slash == path ? 1 : (size_t)(slash - path));
+}
+
+/* "folder/.name.XXXXXX", from malloc. */
+static char *temporary_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    text t = {0};
+    text_append(&t, path, (size_t)(name - path));
+    text_printf(&t, ".%s.XXXXXX", name);
+    return t.data;
+}
+
+/* The permissions that a new file gets, or those of the file that it replaces. */
+static mode_t mode_for(const struct stat *old)
+{
+    if (old) return old->st_mode & 0777;
+    const mode_t mask = umask(0);
+    umask(mask);
+    return 0666 & ~mask;
+}
+
+/* Opens a file beside `path`: without a name where the system can, so that nothing stays behind even
+ * when the program is killed; else under a temporary name. */
+static glint_status open_beside(out_file *file, const struct stat *old, glint_error *error)
+{
+    char *folder = folder_of(file->path);
+    if (!folder) return error_no_memory(error);
+    file->fd = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    free(folder);
+    if (file->fd < 0) {
+        file->temporary = temporary_name(file->path);
+        if (!file->temporary) return error_no_memory(error);
+        file->fd = mkstemp(file->temporary);
+        if (file->fd < 0) {
+            free(file->temporary);
+            file->temporary = NULL;
+            return fail(file->shown, "create a file there", error);
+        }
+    }
+    file->close_fd = true;
+    if (fchmod(file->fd, mode_for(old)) != 0) return fail(file->shown, "set its permissions", error);
+    return GLINT_OK;
+}
+
+static glint_status open_path(out_file *file, const char *path, glint_error *error)
+{
+    struct stat info;
+    const bool exists = stat(path, &info) == 0;
+    if (!exists && errno != ENOENT) return fail(path, "write there", error);
+    if (exists && S_ISDIR(info.st_mode))
+        return error_set(error, GLINT_OUTPUT, (place){path, 0, 0},
+                         "this is a directory; expected the name of a file to write");
+    if (exists && !S_ISREG(info.st_mode)) {
+        file->fd = open(path, O_WRONLY | O_CLOEXEC);
+        file->close_fd = true;
+        return file->fd < 0 ? fail(path, "open it", error) : GLINT_OK;
+    }
+    if (exists && access(path, W_OK) != 0) return fail(path, "write to it", error);
+    file->path = exists ? realpath(path, NULL) : string_copy(path, strlen(path));
+    if (!file->path) return fail(path, "find it", error);
+    return open_beside(file, exists ? &info : NULL, error);
+}
+
+glint_status out_file_open(const char *path, out_file **out, glint_error *error)
+{
+    *out = NULL;
+    out_file *file = calloc(1, sizeof *file);
+    const char *shown = path ? path : "standard output";
+    if (file) file->shown = string_copy(shown, strlen(shown));
+    if (!file || !file->shown) {
+        free(file);
+        return error_no_memory(error);
+    }
+    file->fd = -1;
+    if (!path) {
+        file->fd = STDOUT_FILENO;
+        *out = file;
+        return GLINT_OK;
+    }
+    const glint_status status = open_path(file, path, error);
+    if (status)
+        out_file_abandon(file);
+    else
+        *out = file;
+    return status;
+}
+
+glint_status out_file_write(out_file *file, const char *bytes, size_t n, glint_error *error)
+{
+    while (n > 0) {
+        const ssize_t written = write(file->fd, bytes, n);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return fail(file->shown, "write", error);
+        bytes += written;
+        n -= (size_t)written;
+    }
+    return GLINT_OK;
+}
+
+/* Gives a nameless file a temporary name. */
+static glint_status name_file(out_file *file, glint_error *error)
+{
+    char link[32];
+    snprintf(link, sizeof link, "/proc/self/fd/%d", file->fd);
+    for (int attempt = 0; attempt < 100; attempt++) {
+        char *name = temporary_name(file->path);
+        if (!name) return error_no_memory(error);
+        const unsigned mark = (unsigned)getpid() % 10000u * 100u + (unsigned)attempt;
+        snprintf(name + strlen(name) - 6, 7, "%06u", mark % 1000000u);
+        if (linkat(AT_FDCWD, link, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0) {
+            file->temporary = name;
+            return GLINT_OK;
+        }
+        free(name);
+        if (errno != EEXIST) break;
+    }
+    return fail(file->shown, "put the file in its place", error);
+}
+
+glint_status out_file_commit(out_file *file, glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    if (file->path) {
+        if (fsync(file->fd) != 0) status = fail(file->shown, "sync", error);
+        if (!status && !file->temporary) status = name_file(file, error);
+        if (!status && rename(file->temporary, file->path) != 0)
+            status = fail(file->shown, "put the file in its place", error);
+        if (!status) {
+            free(file->temporary);
+            file->temporary = NULL;
+        }
+    }
+    if (status) {
+        out_file_abandon(file);
+        return status;
+    }
+    if (file->close_fd && close(file->fd) != 0) status = fail(file->shown, "close", error);
+    release(file);
+    return status;
+}
+
+void out_file_abandon(out_file *file)
+{
+    if (!file) return;
+    if (file->temporary) unlink(file->temporary);
+    if (file->close_fd && file->fd >= 0) close(file->fd);
+    release(file);
+}

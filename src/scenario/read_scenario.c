@@ -1,0 +1,546 @@
+#include "base/constants.h"
+#include "base/text.h"
+#include "base/vec.h"
+#include "scenario/reading.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void reading_note(reading *rd, glint_status status)
+{
+    if (status > rd->status) rd->status = status;
+}
+
+void reading_done(reading *rd, reader *r)
+{
+    reading_note(rd, reader_done(r));
+}
+
+void reading_no_memory(reading *rd)
+{
+    reading_note(rd, errors_add(rd->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory"));
+}
+
+toml_document *reading_open(reading *rd, const char *path, place asked_from)
+{
+    glint_scenario *s = rd->s;
+    toml_document **documents =
+        realloc(s->documents, (size_t)(s->n_documents + 1) * sizeof *documents);
+    if (!documents) {
+        reading_no_memory(rd);
+        return NULL;
+    }
+    s->documents = documents;
+    toml_document *document;
+    const glint_status status = toml_read(path, asked_from, &document, rd->errors);
+    reading_note(rd, status);
+    if (status) return NULL;
+    documents[s->n_documents++] = document;
+    return document;
+}
+
+char *reading_path(reading *rd, const toml_node *node)
+{
+    char *path = path_beside(node->where.file, node->string);
+    if (!path) reading_no_memory(rd);
+    return path;
+}
+
+/* True when a "key=value" names a key of a model: materials, materials_from, component. */
+static bool belongs_to_model(const char *assignment)
+{
+    static const char *const KEYS[] = {"materials", "materials_from", "component"};
+    const size_t n = strcspn(assignment, ".= \t");
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++)
+        if (strlen(KEYS[k]) == n && strncmp(KEYS[k], assignment, n) == 0) return true;
+    return false;
+}
+
+typedef enum override_choice { OVERRIDE_ALL, OVERRIDE_MODEL, OVERRIDE_OTHERS } override_choice;
+
+static void apply_overrides(reading *rd, toml_document *document, override_choice which)
+{
+    for (size_t k = 0; k < rd->n_overrides; k++) {
+        const bool for_model = belongs_to_model(rd->overrides[k]);
+        if (which == OVERRIDE_ALL || for_model == (which == OVERRIDE_MODEL))
+            reading_note(rd, toml_override(document, rd->overrides[k], rd->errors));
+    }
+}
+
+/* ---------------------------------------------------------------- [time] */
+
+/* Counts steps: k step_s up to the end, the last one to within 1e-6 of a step. */
+static void count_steps(reading *rd, reader *r, double span_s)
+{
+    static const double MOST = 1e10;
+    glint_scenario *s = rd->s;
+    const double steps = floor(span_s / s->step_s + 1e-6);
+    if (steps >= MOST)
+        reader_fail(r, reader_place(r, "step_s"),
+                    "this time span has %.3g steps of %g s; expected at most %g: take a longer step",
+                    steps, s->step_s, MOST);
+    else
+        s->n_steps = (int64_t)steps + 1;
+}
+
+static void read_time(reading *rd, reader *root)
+{
+    static const param_info STEP = {"step_s", "s", "time between rows", 0, 1e9, PARAM_REQUIRED,
+                                    PARAM_MIN_OPEN};
+    static const param_info DURATION = {"duration_s", "s", "length of the run", 0, 4.1e9, 0, 0};
+    const toml_node *table = reader_table(root, "time", true);
+    if (!table) return;
+    glint_scenario *s = rd->s;
+    reader r = reader_start(table, "[time]", rd->errors);
+    utc_time start, end;
+    double span_s = 0;
+    const bool has_start = reader_time(&r, "start", true, &start);
+    const bool has_end = reader_time(&r, "end", false, &end);
+    const bool has_duration = reader_param(&r, &DURATION, &span_s);
+    const bool has_step = reader_param(&r, &STEP, &s->step_s);
+    if (reader_has(&r, "end") && reader_has(&r, "duration_s"))
+        reader_fail(&r, reader_place(&r, "duration_s"),
+                    "both 'end' and 'duration_s' are given; expected one of them");
+    else if (!reader_has(&r, "end") && !reader_has(&r, "duration_s"))
+        reader_fail(&r, table->where, "[time] has neither 'end' nor 'duration_s'; expected one");
+    if (has_start && has_end) {
+        double a[2], b[2], tai_utc;
+        utc_to_tt(&start, a, &tai_utc, NULL);
+        utc_to_tt(&end, b, &tai_utc, NULL);
+        span_s = jd_difference_s(b, a);
+        if (span_s < 0)
+            reader_fail(&r, reader_place(&r, "end"),
+                        "the end lies %g s before the start; expected an end not before it",
+                        -span_s);
+    }
+    if (r.status == GLINT_OK && has_start && (has_end || has_duration) && has_step) {
+        run_clock_start(&start, span_s, s->dut1_s, &s->clock);
+        count_steps(rd, &r, span_s);
+        if (s->clock.dubious)
+            errors_warn(rd->errors, table->where,
+                        "leap seconds are not known for these years; UTC may be off by a second "
+                        "or more");
+    }
+    reading_done(rd, &r);
+}
+
+/* ------------------------------------------------------------ [observer] */
+
+static void read_observer(reading *rd, reader *root)
+{
+    static const param_info LATITUDE = {"latitude_deg", "deg", "geodetic, north positive", -90, 90,
+                                        PARAM_REQUIRED, 0};
+    static const param_info LONGITUDE = {"longitude_deg", "deg", "east positive", -360, 360,
+                                         PARAM_REQUIRED, 0};
+    static const param_info HEIGHT = {"height_m", "m", "above the WGS84 ellipsoid", -10000, 100000,
+                                      0, 0};
+    static const param_info ELEVATION = {"min_elevation_deg", "deg", "lower is below the horizon",
+                                         -90, 90, 0, 0};
+    const toml_node *table = reader_table(root, "observer", true);
+    if (!table) return;
+    glint_scenario *s = rd->s;
+    reader r = reader_start(table, "[observer]", rd->errors);
+    double latitude, longitude, height_m, elevation_deg;
+    s->site_name = "";
+    reader_string(&r, "name", false, &s->site_name);
+    reader_refuse(&r, "satellite", "this version observes from ground sites only");
+    reader_refuse(&r, "direction", "this version observes from ground sites only; known directions "
+                                   "are given by [geometry]");
+    if (!reader_has(&r, "satellite") && !reader_has(&r, "direction")) {
+        reader_param(&r, &LATITUDE, &latitude);
+        reader_param(&r, &LONGITUDE, &longitude);
+        reader_param(&r, &HEIGHT, &height_m);
+        reader_param(&r, &ELEVATION, &elevation_deg);
+        s->min_elevation = elevation_deg * DEG;
+        glint_error error;
+        if (r.status == GLINT_OK &&
+            earth_site_at(latitude * DEG, longitude * DEG, height_m, &s->site, &error))
+            r.status = errors_take(rd->errors, &error, table->where);
+    }
+    reading_done(rd, &r);
+}
+
+/* ---------------------------------------------------------- [satellite] */
+
+static void read_satellite(reading *rd, reader *root)
+{
+    static const char *const SHADOWS[] = {"none", "exact", "interpolated", "rays"};
+    const toml_node *table = reader_table(root, "satellite", false);
+    const bool tables_here = reader_has(root, "component") || reader_has(root, "materials") ||
+                             reader_has(root, "materials_from");
+    const toml_node *named = NULL;
+    if (table) {
+        reader r = reader_start(table, "[satellite]", rd->errors);
+        int shadows;
+        named = reader_get(&r, "model", TOML_STRING, false, "the path of a model file");
+        reader_choice(&r, "self_shadows", SHADOWS, 4, 0, &shadows);
+        if (shadows != 0)
+            reader_fail(&r, reader_place(&r, "self_shadows"),
+                        "self_shadows = \"%s\" is not built yet: this version neglects the shadows "
+                        "that parts cast on each other; expected \"none\"",
+                        SHADOWS[shadows]);
+        if (named && tables_here)
+            reader_fail(&r, named->where,
+                        "both a model file and a model's tables in this file are given; expected "
+                        "one of them");
+        else if (!reader_has(&r, "model") && !tables_here)
+            reader_fail(&r, table->where,
+                        "[satellite] has no 'model' and this file has no [[component]]; expected "
+                        "one of them");
+        reading_done(rd, &r);
+    } else if (!tables_here) {
+        reader_fail(root, root->table->where,
+                    "there is no satellite; expected [satellite] with a model, or [[component]] "
+                    "tables");
+    }
+    if (!named || tables_here) {
+        if (tables_here) read_model_tables(rd, root);
+        return;
+    }
+    char *path = reading_path(rd, named);
+    toml_document *document = path ? reading_open(rd, path, named->where) : NULL;
+    free(path);
+    if (!document) return;
+    apply_overrides(rd, document, OVERRIDE_MODEL);
+    reader r = reader_start(&document->root, "the model file", rd->errors);
+    reader_has(&r, "title");
+    read_model_tables(rd, &r);
+    reading_done(rd, &r);
+}
+
+/* --------------------------------------------------------- [photometry] */
+
+static void read_extinction(reading *rd, reader *r)
+{
+    static const char EXPECTED[] = "false, true (bands with a known site value), or a table of "
+                                   "magnitudes per airmass such as { V = 0.15 }";
+    glint_scenario *s = rd->s;
+    const toml_node *node = reader_find(r, "extinction");
+    if (!node || (node->type == TOML_BOOLEAN && !node->boolean)) return;
+    s->has_extinction = true;
+    if (node->type == TOML_BOOLEAN) {
+        for (int b = 0; b < s->n_bands; b++) {
+            s->extinction[b] = s->bands[b]->site_extinction;
+            if (isnan(s->extinction[b]))
+                reader_fail(r, node->where,
+                            "no extinction is known for band %s; expected a table such as "
+                            "{ %s = 0.15 } in magnitudes per airmass",
+                            s->bands[b]->name, s->bands[b]->name);
+        }
+        return;
+    }
+    if (node->type != TOML_TABLE) {
+        reader_fail(r, node->where, "'extinction' is %s; expected %s", toml_type_name(node->type),
+                    EXPECTED);
+        return;
+    }
+    reader table = reader_start(node, "extinction", rd->errors);
+    for (int b = 0; b < s->n_bands; b++) {
+        const param_info k = {s->bands[b]->name, "mag per airmass", "", 0, 10, PARAM_REQUIRED, 0};
+        reader_param(&table, &k, &s->extinction[b]);
+    }
+    reading_done(rd, &table);
+}
+
+static void add_band(reading *rd, reader *r, const toml_node *node, const char *system)
+{
+    glint_scenario *s = rd->s;
+    const char *names[64];
+    size_t n = 0;
+    for (; band_at(n) && n < 64; n++)
+        names[n] = band_at(n)->name;
+    const band_info *band = node->type == TOML_STRING ? band_named(node->string) : NULL;
+    if (!band) {
+        const char *near = node->type == TOML_STRING ? nearest_name(node->string, names, n) : NULL;
+        reader_fail(r, node->where,
+                    "'%.40s' is not a band; expected U, B, V, R, I, sdss_u to sdss_z, or lsst_u to "
+                    "lsst_y%s%s%s",
+                    node->type == TOML_STRING ? node->string : toml_type_name(node->type),
+                    near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "");
+        return;
+    }
+    for (int b = 0; b < s->n_bands; b++)
+        if (s->bands[b] == band) {
+            reader_fail(r, node->where, "band '%s' is listed twice", band->name);
+            return;
+        }
+    const magnitude_system chosen = !system                         ? band->system
+                                    : string_equal(system, "vega") ? SYSTEM_VEGA
+                                                                    : SYSTEM_AB;
+    const double sun = band_sun_magnitude(band, chosen);
+    if (isnan(sun)) {
+        reader_fail(r, node->where,
+                    "band '%s' has no magnitude of the Sun in the %s system; expected "
+                    "system = \"ab\", or no system",
+                    band->name, magnitude_system_name(chosen));
+        return;
+    }
+    if (s->n_bands == SCENARIO_MAX_BANDS) {
+        reader_fail(r, node->where, "expected at most %d bands", SCENARIO_MAX_BANDS);
+        return;
+    }
+    s->bands[s->n_bands] = band;
+    s->systems[s->n_bands] = chosen;
+    s->sun_magnitude[s->n_bands++] = sun;
+}
+
+static void read_bands(reading *rd, reader *r)
+{
+    static const char *const SYSTEMS[] = {"vega", "ab"};
+    int system = 0;
+    const bool given = reader_choice(r, "system", SYSTEMS, 2, 0, &system);
+    const toml_node *list = reader_get(r, "bands", TOML_ARRAY, false, "a list such as [\"V\"]");
+    for (int i = 0; list && i < list->n_children; i++)
+        add_band(rd, r, &list->children[i], given ? SYSTEMS[system] : NULL);
+    if (list && list->n_children == 0)
+        reader_fail(r, list->where, "'bands' is empty; expected at least one band");
+    if (!list && r->status == GLINT_OK) {
+        char name[] = "V";
+        const toml_node v = {.type = TOML_STRING, .string = name};
+        add_band(rd, r, &v, given ? SYSTEMS[system] : NULL);
+    }
+}
+
+static void read_photometry(reading *rd, reader *root)
+{
+    static const char *const DISCS[] = {"point", "uniform", "limb-darkened"};
+    static const toml_node NOTHING = {.type = TOML_TABLE};
+    const toml_node *table = reader_table(root, "photometry", false);
+    reader r = reader_start(table ? table : &NOTHING, "[photometry]", rd->errors);
+    int disc;
+    read_bands(rd, &r);
+    reader_choice(&r, "solar_disc", DISCS, 3, 0, &disc);
+    if (disc != 0)
+        reader_fail(&r, reader_place(&r, "solar_disc"),
+                    "solar_disc = \"%s\" is not built yet: this version takes the Sun's light from "
+                    "the centre of its disc; expected \"point\"",
+                    DISCS[disc]);
+    const toml_node *earthshine = reader_find(&r, "earthshine");
+    if (earthshine && (earthshine->type != TOML_BOOLEAN || earthshine->boolean))
+        reader_fail(&r, earthshine->where,
+                    "earthshine is not built yet: this version has sunlight only; expected false");
+    if (rd->s->has_geometry)
+        reader_refuse(&r, "extinction", "directions given by [geometry] have no airmass");
+    else
+        read_extinction(rd, &r);
+    reading_done(rd, &r);
+}
+
+/* ------------------------------------------------- [corrections], [output] */
+
+static void read_corrections(reading *rd, reader *root)
+{
+    static const param_info DUT1 = {"dut1_s", "s", "UT1-UTC", -0.9, 0.9, 0, 0};
+    glint_scenario *s = rd->s;
+    s->light_time = s->aberration = true;
+    const toml_node *table = reader_table(root, "corrections", false);
+    if (!table) return;
+    reader r = reader_start(table, "[corrections]", rd->errors);
+    reader_boolean(&r, "light_time", true, &s->light_time);
+    reader_boolean(&r, "aberration", true, &s->aberration);
+    reader_param(&r, &DUT1, &s->dut1_s);
+    reading_done(rd, &r);
+}
+
+static void read_output(reading *rd, reader *root)
+{
+    static const char *const ROWS[] = {"all", "visible", "dark-site"};
+    static const char *const SHARES[] = {"none", "material", "component", "both"};
+    static const param_info SUN = {"sun_elevation_max_deg", "deg", "a dark site has the Sun below",
+                                   -90, 90, -6, 0};
+    glint_scenario *s = rd->s;
+    s->sun_elevation_max = -6 * DEG;
+    s->shares = SHARES_MATERIAL;
+    const toml_node *table = reader_table(root, "output", false);
+    if (!table) return;
+    reader r = reader_start(table, "[output]", rd->errors);
+    int rows, shares;
+    double sun_deg;
+    reader_choice(&r, "rows", ROWS, 3, 0, &rows);
+    reader_choice(&r, "shares", SHARES, 4, 1, &shares);
+    reader_param(&r, &SUN, &sun_deg);
+    s->rows = (rows_choice)rows;
+    s->shares = (unsigned)shares; /* 1 material, 2 component, 3 both */
+    s->sun_elevation_max = sun_deg * DEG;
+    if (s->has_geometry && s->rows != ROWS_ALL)
+        reader_fail(&r, reader_place(&r, "rows"),
+                    "directions given by [geometry] have no site; expected rows = \"all\"");
+    reading_done(rd, &r);
+}
+
+/* --------------------------------------------------------------- the whole */
+
+/* The tables that only make sense where positions are computed. */
+static void refuse_with_geometry(reader *root)
+{
+    static const char *const KEYS[] = {"time", "observer", "orbit", "attitude", "corrections"};
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) {
+        const toml_node *node = reader_find(root, KEYS[k]);
+        if (node)
+            reader_fail(root, node->key_where,
+                        "[%s] stands beside [geometry], which gives the directions itself; "
+                        "expected one of them",
+                        KEYS[k]);
+    }
+}
+
+static bool wants_moon(const glint_scenario *s)
+{
+    for (int c = 0; c < s->satellite.n_components; c++)
+        if (s->satellite.components[c].has_hinge &&
+            s->satellite.components[c].hinge.drive == HINGE_TRACK &&
+            s->satellite.components[c].hinge.target.kind == DIRECTION_MOON)
+            return true;
+    return attitude_wants(&s->attitude, DIRECTION_MOON);
+}
+
+static void read_all(reading *rd, toml_document *document)
+{
+    glint_scenario *s = rd->s;
+    reader root = reader_start(&document->root, "the scenario", rd->errors);
+    s->title = "";
+    reader_string(&root, "title", false, &s->title);
+    const toml_node *geometry = reader_table(&root, "geometry", false);
+    s->has_geometry = reader_has(&root, "geometry");
+    read_photometry(rd, &root);
+    if (s->has_geometry) {
+        refuse_with_geometry(&root);
+        if (geometry) read_geometry(rd, geometry);
+    } else {
+        read_corrections(rd, &root);
+        read_time(rd, &root);
+        read_observer(rd, &root);
+        read_orbit(rd, &root);
+        read_attitude(rd, &root);
+    }
+    read_output(rd, &root);
+    read_satellite(rd, &root);
+    s->needs_moon = !s->has_geometry && rd->status == GLINT_OK && wants_moon(s);
+    read_expectations(rd, &root);
+    reader_refuse(&root, "observed", "comparing with an observed track comes later");
+    reading_done(rd, &root);
+}
+
+/* A scenario that holds the document at `path`, overrides applied; NULL on error. */
+static glint_scenario *start(const char *path, reading *rd, toml_document **document)
+{
+    rd->s = calloc(1, sizeof *rd->s);
+    if (!rd->s) {
+        reading_no_memory(rd);
+        return NULL;
+    }
+    *document = reading_open(rd, path, PLACE_NONE);
+    if (!*document) return NULL;
+    rd->s->text = string_copy((*document)->text, strlen((*document)->text));
+    rd->s->overrides = calloc(rd->n_overrides + 1, sizeof *rd->s->overrides);
+    if (!rd->s->text || !rd->s->overrides) {
+        reading_no_memory(rd);
+        return NULL;
+    }
+    for (size_t k = 0; k < rd->n_overrides; k++) {
+        char *copy = string_copy(rd->overrides[k], strlen(rd->overrides[k]));
+        if (!copy) {
+            reading_no_memory(rd);
+            return NULL;
+        }
+        rd->s->overrides[rd->s->n_overrides++] = copy;
+    }
+    return rd->s;
+}
+
+static bool has_model_file(const toml_document *document)
+{
+    const toml_node *table = toml_child(&document->root, "satellite");
+    return table && toml_child(table, "model");
+}
+
+static glint_status finish(reading *rd, glint_scenario **out)
+{
+    if (rd->status) {
+        glint_scenario_free(rd->s);
+        rd->s = NULL;
+    }
+    *out = rd->s;
+    return rd->status;
+}
+
+glint_status glint_scenario_read(const char *path, const char *const *overrides, size_t n_overrides,
+                                 glint_scenario **out, glint_errors *errors)
+{
+    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK};
+    toml_document *document;
+    *out = NULL;
+    if (start(path, &rd, &document)) {
+        apply_overrides(&rd, document, OVERRIDE_OTHERS);
+        if (!has_model_file(document)) apply_overrides(&rd, document, OVERRIDE_MODEL);
+        if (!rd.status && scenario_is_model(document))
+            reading_note(&rd, errors_add(errors, GLINT_INPUT, document->root.where,
+                                         "this is a model file, not a scenario: it has no [time] "
+                                         "and no [geometry]; expected a scenario (a model can be "
+                                         "looked at with 'glint check')"));
+        else if (!rd.status)
+            read_all(&rd, document);
+    }
+    return finish(&rd, out);
+}
+
+glint_status scenario_read_model(const char *path, const char *const *overrides,
+                                 size_t n_overrides, glint_scenario **out, glint_errors *errors)
+{
+    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK};
+    toml_document *document;
+    *out = NULL;
+    if (start(path, &rd, &document)) {
+        apply_overrides(&rd, document, OVERRIDE_ALL);
+        reader r = reader_start(&document->root, "the model file", errors);
+        rd.s->title = "";
+        reader_string(&r, "title", false, &rd.s->title);
+        rd.s->n_bands = 1;
+        rd.s->bands[0] = band_named("V");
+        read_model_tables(&rd, &r);
+        reading_done(&rd, &r);
+    }
+    return finish(&rd, out);
+}
+
+bool scenario_is_model(const toml_document *document)
+{
+    const toml_node *root = &document->root;
+    return !toml_child(root, "time") && !toml_child(root, "geometry") &&
+           !toml_child(root, "observer") && !toml_child(root, "orbit") &&
+           !toml_child(root, "satellite") &&
+           (toml_child(root, "component") || toml_child(root, "materials"));
+}
+
+static void expectations_free(glint_scenario *s)
+{
+    for (int i = 0; i < s->n_requirements; i++)
+        free(s->requirements[i].when);
+    free(s->requirements);
+    free(s->expectations);
+    csv_free(&s->expected.csv);
+    free(s->expected.columns);
+    free(s->expected.absolute);
+    free(s->expected.relative);
+}
+
+void glint_scenario_free(glint_scenario *s)
+{
+    if (!s) return;
+    expectations_free(s);
+    satellite_free(&s->satellite);
+    orbit_free(s->orbit);
+    free(s->geometry.sun);
+    free(s->geometry.observer);
+    free(s->geometry.range_m);
+    free(s->geometry.t_s);
+    for (size_t k = 0; k < s->n_overrides; k++)
+        free(s->overrides[k]);
+    free(s->overrides);
+    free(s->text);
+    for (int i = 0; i < s->n_documents; i++)
+        toml_free(s->documents[i]);
+    free(s->documents);
+    free(s);
+}

@@ -1,0 +1,42 @@
+/* reading.h: what the files of this room share while a scenario is being read. */
+#ifndef GLINT_SCENARIO_READING_H
+#define GLINT_SCENARIO_READING_H
+
+#include "scenario/reader.h"
+#include "scenario/scenario.h"
+
+/* A reading in progress. */
+typedef struct reading {
+    glint_scenario *s;
+    const char *const *overrides; /* borrowed */
+    size_t n_overrides;
+    glint_errors *errors;
+    glint_status status; /* the worst so far */
+} reading;
+
+/* Keeps the worst of the statuses. */
+void reading_note(reading *rd, glint_status status);
+/* Ends a table: unknown keys, status. */
+void reading_done(reading *rd, reader *r);
+/* Memory is out: notes it. */
+void reading_no_memory(reading *rd);
+/* Opens a document that the scenario keeps; NULL on error (noted). model: apply the overrides that
+ * belong to a model; else those that do not (all, when the model's tables stand in the scenario). */
+toml_document *reading_open(reading *rd, const char *path, place asked_from);
+/* Resolves a path that a node names, relative to its file; owned by the caller; NULL on error. */
+char *reading_path(reading *rd, const toml_node *node);
+
+/* A word of the vocabulary, or { ra_deg, dec_deg }, or { latitude_deg, longitude_deg, height_m }. */
+bool read_direction(reader *r, const char *key, bool required, direction *out);
+
+void read_orbit(reading *rd, reader *root);
+void read_attitude(reading *rd, reader *root);
+void read_hinge(reading *rd, const toml_node *table, hinge *out);
+void read_geometry(reading *rd, const toml_node *table);
+/* The tables of a model: materials_from, materials, component. */
+void read_model_tables(reading *rd, reader *r);
+void read_expectations(reading *rd, reader *root);
+
+void satellite_free(satellite *sat);
+
+#endif

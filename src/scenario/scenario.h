@@ -1,0 +1,162 @@
+/* scenario.h: a scenario as read and checked: everything that a run needs, compiled, immutable. */
+#ifndef GLINT_SCENARIO_SCENARIO_H
+#define GLINT_SCENARIO_SCENARIO_H
+
+#include "base/band.h"
+#include "base/csv.h"
+#include "facets/model.h"
+#include "orbit/attitude.h"
+#include "orbit/earth.h"
+#include "orbit/hinge.h"
+#include "orbit/orbit.h"
+#include "scenario/toml.h"
+
+enum { SCENARIO_MAX_BANDS = 16 };
+
+/* A material: its reflection in each band of the scenario. */
+typedef struct scenario_material {
+    const char *name;     /* borrowed from its document */
+    const char *source;   /* "" where not said */
+    place where;          /* of its table */
+    brdf_material *bands; /* owned; n_bands */
+    bool used;            /* by some facet */
+} scenario_material;
+
+/* A part of the satellite and how it turns. */
+typedef struct scenario_component {
+    const char *name; /* borrowed from its document */
+    int parent;       /* index, -1 for none */
+    bool has_hinge;
+    hinge hinge;
+} scenario_component;
+
+/* The satellite: a model file, or tables in the scenario. */
+typedef struct satellite {
+    scenario_material *materials;   /* owned */
+    int n_materials;                /* those in use only, in the order of the files */
+    scenario_component *components; /* owned; in the order of the file */
+    int n_components;
+    int *order;                         /* owned; parents before children */
+    model_material *model_materials;    /* owned; what the compiled model borrows */
+    model_component *model_components;  /* owned */
+    model model;
+} satellite;
+
+typedef enum orbit_source {
+    ORBIT_TLE,
+    ORBIT_KEPLER,
+    ORBIT_CIRCULAR,
+    ORBIT_GEOSTATIONARY
+} orbit_source;
+
+typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
+
+enum { SHARES_MATERIAL = 1u, SHARES_COMPONENT = 2u };
+
+/* A geometry that is given, not computed: directions in the body frame. */
+typedef struct geometry_table {
+    double (*sun)[3], (*observer)[3]; /* owned; unit, body */
+    double *range_m, *t_s;            /* owned */
+    int64_t n;
+} geometry_table;
+
+/* A value that a column must have in some row. */
+typedef struct expectation {
+    place where;
+    bool by_row; /* else by t_s */
+    int64_t row;
+    double t_s;
+    const char *column;
+    bool empty;             /* the cell must be empty (from a table) */
+    double value, absolute, relative; /* |got - value| <= absolute + relative |value| */
+    const char *source;     /* "" where not said */
+} expectation;
+
+/* A condition on a column: lo <= value <= hi. */
+typedef struct row_condition {
+    const char *column;
+    double lo, hi;
+    place where;
+} row_condition;
+
+/* A design requirement on a column. */
+typedef struct requirement {
+    place where;
+    const char *column;
+    double fainter_than, for_fraction; /* mag; of the rows that `when` selects */
+    bool has_reference;
+    double reference_height_m;
+    row_condition *when; /* owned */
+    int n_when;
+} requirement;
+
+typedef struct expected_table {
+    csv_table csv;
+    place where;
+    int n_columns;           /* compared columns: those with a tolerance */
+    const char **columns;     /* owned array; borrowed names */
+    double *absolute, *relative; /* owned */
+} expected_table;
+
+struct glint_scenario {
+    toml_document **documents; /* owned; the scenario first, then what it names */
+    int n_documents;
+    char **overrides;          /* owned array of owned copies */
+    size_t n_overrides;
+    const char *title;         /* "" where not said */
+    char *text;                /* owned; the scenario's file, for the output's header */
+
+    bool has_geometry;       /* directions given: no time, site, orbit, attitude */
+    geometry_table geometry;
+
+    run_clock clock;
+    double step_s;
+    int64_t n_steps;
+
+    const char *site_name; /* "" where not said */
+    earth_site site;
+    double min_elevation;  /* rad */
+
+    orbit_source orbit_source;
+    tle tle;
+    kepler_elements kepler; /* KEPLER and CIRCULAR */
+    double orbit_epoch_s;   /* TT s from the start */
+    bool j2;
+    double geostationary_longitude;
+    orbit *orbit; /* owned */
+
+    attitude attitude;
+    bool needs_moon; /* attitude or a hinge asks for the Moon */
+    satellite satellite;
+
+    int n_bands;
+    const band_info *bands[SCENARIO_MAX_BANDS];
+    magnitude_system systems[SCENARIO_MAX_BANDS];
+    double sun_magnitude[SCENARIO_MAX_BANDS];
+    bool has_extinction;
+    double extinction[SCENARIO_MAX_BANDS]; /* mag per airmass; 0 without */
+
+    bool light_time, aberration;
+    double dut1_s;
+
+    rows_choice rows;
+    double sun_elevation_max; /* rad; of a dark site */
+    unsigned shares;
+
+    expectation *expectations; /* owned */
+    int n_expectations;
+    expected_table expected;
+    bool has_expected_table;
+    requirement *requirements; /* owned */
+    int n_requirements;
+};
+
+/* Reads the model file at `path` alone, as a scenario of that satellite without anything else: for
+ * reports. bands: as in the scenario. */
+glint_status scenario_read_model(const char *path, const char *const *overrides,
+                                 size_t n_overrides, glint_scenario **out, glint_errors *errors);
+/* True when the file holds a model, not a scenario: no [time] and no [geometry], but components or
+ * materials. */
+bool scenario_is_model(const toml_document *document);
+
+#endif
