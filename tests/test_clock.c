@@ -216,8 +216,8 @@ START_TEST(test_clock_check_knows_every_leap_second)
     for (int year = 1972; year <= 2025; year++)
         for (int month = 6; month <= 12; month += 6) {
             const utc_time utc = {year, month, month == 6 ? 30 : 31, 23, 59, 60.5};
-            const bool there = found < N_LEAPS && leap_days[found][0] == year &&
-                               leap_days[found][1] == month;
+            const bool there =
+                found < N_LEAPS && leap_days[found][0] == year && leap_days[found][1] == month;
             ck_assert_msg((utc_check(&utc, PLACE_NONE, NULL) == GLINT_OK) == there, "%d-%d", year,
                           month);
             found += there;
@@ -388,14 +388,16 @@ END_TEST
 START_TEST(test_clock_tt_runs_evenly_over_leap_seconds)
 {
     const run_clock clock = clock_from("2008-12-31T12:34:56.789Z", 4e8);
-    static const double times_s[] = {-5.0, 0.0, 1e-3, 41103.211, 86400.0, 1e6, 123456789.015625, 4e8};
+    static const double times_s[] = {-5.0, 0.0, 1e-3, 41103.211, 86400.0, 1e6, 123456789.015625,
+                                     4e8};
     for (size_t k = 0; k < sizeof times_s / sizeof *times_s; k++) {
         double tt_jd[2], ut1_jd[2];
         run_clock_tt(&clock, times_s[k], tt_jd);
         run_clock_ut1(&clock, times_s[k], ut1_jd);
         /* the parts keep 4e-11 s (rounding of 2 d); one double for the difference, 2e-16 of it */
         assert_near(jd_difference_s(tt_jd, clock.tt_jd), times_s[k], 8e-11 + 2e-16 * times_s[k]);
-        assert_near(jd_difference_s(tt_jd, ut1_jd), 32.184 + 33.0, 8e-11); /* TAI-UTC of the start */
+        assert_near(jd_difference_s(tt_jd, ut1_jd), 32.184 + 33.0,
+                    8e-11); /* TAI-UTC of the start */
         ck_assert(fabs(tt_jd[1]) < 3.0);
     }
 }

@@ -26,8 +26,8 @@ static kepler_elements table_elements(const csv_table *t, long k)
     };
 }
 
-/* A phase error that grows with the time is the rounding of M: half a unit in its last place, by
- * the speed it moves the satellite. Angles of a few rad, rounded, do the same at any time. */
+/* What is left is the rounding of angles, the largest of them the mean anomaly: 2900 rad after a
+ * month in low orbit, good to 2.3e-13 rad, which are 1.6e-9 km. */
 static void assert_state(const csv_table *t, long k, const kepler_orbit *orbit)
 {
     double r[3], v[3], r_want_km[3], v_want_km_s[3];
@@ -35,8 +35,8 @@ static void assert_state(const csv_table *t, long k, const kepler_orbit *orbit)
     table_vector(t, k, "", "_km", r_want_km);
     table_vector(t, k, "v", "_kms", v_want_km_s);
     for (int i = 0; i < 3; i++) {
-        assert_near(1e-3 * r[i], r_want_km[i], 2e-8);
-        assert_near(1e-3 * v[i], v_want_km_s[i], 2e-11);
+        assert_near(1e-3 * r[i], r_want_km[i], 4e-9);
+        assert_near(1e-3 * v[i], v_want_km_s[i], 5e-12);
     }
 }
 
@@ -47,10 +47,9 @@ static void check_two_body(const char *path)
         const kepler_elements elements = table_elements(&t, k);
         const kepler_orbit orbit = orbit_of(&elements, 0.0);
         assert_state(&t, k, &orbit);
-        const double mean =
-            elements.mean_anomaly + orbit.mean_motion * table_number(&t, k, "t_s");
+        const double mean = elements.mean_anomaly + orbit.mean_motion * table_number(&t, k, "t_s");
         assert_near(kepler_eccentric_anomaly(mean, elements.eccentricity),
-                    table_number(&t, k, "E_rad"), 2e-11);
+                    table_number(&t, k, "E_rad"), 2e-12);
     }
     csv_free(&t);
 }
@@ -83,7 +82,7 @@ END_TEST
 
 /* ---------------------------------------------------------- Kepler's equation */
 
-static const double eccentricities[] = {0.0,  1e-12, 1e-3, 0.05, 0.0999, 0.1,      0.3,
+static const double eccentricities[] = {0.0,  1e-12, 1e-3, 0.05,  0.0999,   0.1,       0.3,
                                         0.74, 0.9,   0.99, 0.999, 1 - 1e-6, 1 - 1e-12, 1 - 1.2e-16};
 enum { N_ECCENTRICITIES = sizeof eccentricities / sizeof *eccentricities };
 

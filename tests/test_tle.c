@@ -530,6 +530,18 @@ START_TEST(test_tle_file_choose_names_the_satellites_when_several_fit)
 }
 END_TEST
 
+START_TEST(test_tle_file_choose_names_five_satellites_at_most)
+{
+    char content[2048] = "", number[16];
+    for (int k = 0; k < 7; k++) {
+        snprintf(number, sizeof number, "4000%d", k);
+        strcat(strcat(content, with(iss1, 3, number)), "\n");
+        strcat(strcat(content, with(iss2, 3, number)), "\n");
+    }
+    assert_choice_refused(content, &any, 0, ": 40000, 40001, 40002, 40003, 40004 and others;");
+}
+END_TEST
+
 START_TEST(test_tle_file_choose_asks_for_the_number_where_a_name_stands_twice)
 {
     char content[1024];
@@ -602,10 +614,13 @@ START_TEST(test_tle_file_choose_refuses_what_is_no_file_of_element_sets)
 {
     tle out;
     glint_error error = {0};
+    static const char with_nul[] = "1 25\0"
+                                   "544";
     assert_choice_refused("", &any, 0, "no element set");
     assert_choice_refused("ISS\nHST\n", &any, 0, "no element set");
-    ck_assert_int_eq(tle_file_choose(file_of("1 25\0544", 8), PLACE_NONE, &any, &out, &error),
-                     GLINT_INPUT);
+    ck_assert_int_eq(
+        tle_file_choose(file_of(with_nul, sizeof with_nul), PLACE_NONE, &any, &out, &error),
+        GLINT_INPUT);
     ck_assert_ptr_nonnull(strstr(error.message, "not a text file"));
     forget_file();
     ck_assert_int_eq(tle_file_choose("/nonexistent/file.tle", PLACE_NONE, &any, &out, &error),
@@ -684,6 +699,7 @@ static TCase *file_tests(void)
     tcase_add_test(files, test_tle_file_choose_shortens_long_names);
     tcase_add_test(files, test_tle_file_choose_suggests_the_nearest_name);
     tcase_add_test(files, test_tle_file_choose_names_the_satellites_when_several_fit);
+    tcase_add_test(files, test_tle_file_choose_names_five_satellites_at_most);
     tcase_add_test(files, test_tle_file_choose_asks_for_the_number_where_a_name_stands_twice);
     tcase_add_test(files, test_tle_file_choose_refuses_files_cut_at_any_byte);
     tcase_add_test(files, test_tle_file_choose_places_errors_of_the_set);

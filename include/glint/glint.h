@@ -44,15 +44,16 @@ typedef struct glint_error {
     char message[1024];
 } glint_error;
 
-/* A growing list of errors and warnings, in the order found. */
+/* A growing list of errors and warnings, those of a file in the order of their places. The first 1000
+ * are kept, all are counted. */
 typedef struct glint_errors glint_errors;
 
 /* A new empty list; NULL when memory is out. Every function takes a NULL list. */
 glint_errors *glint_errors_new(void);
 void glint_errors_free(glint_errors *errors);
-/* Number of entries, warnings included. */
+/* Number of entries kept, warnings included. */
 size_t glint_errors_count(const glint_errors *errors);
-/* Number of entries that are errors. */
+/* Number of errors, those that were not kept included. */
 size_t glint_errors_error_count(const glint_errors *errors);
 /* Entry k < count, borrowed until the list changes; NULL when k is out of range. */
 const glint_error *glint_errors_get(const glint_errors *errors, size_t k);

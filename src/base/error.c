@@ -5,6 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Entries kept; what comes after is counted only. A file of a million bad cells must not fill the
+ * memory with messages. */
+enum { MOST_KEPT = 1000 };
+
 struct glint_errors {
     glint_error *items; /* owned */
     size_t count, capacity, error_count;
@@ -30,6 +34,10 @@ static void fill(glint_error *error, glint_status status, glint_severity severit
 
 static void append(glint_errors *errors, const glint_error *error)
 {
+    if (errors->count == MOST_KEPT) {
+        errors->error_count += error->severity == GLINT_ERROR;
+        return;
+    }
     if (errors->count == errors->capacity) {
         const size_t capacity = errors->capacity ? 2 * errors->capacity : 8;
         glint_error *items = realloc(errors->items, capacity * sizeof *items);
@@ -93,6 +101,25 @@ glint_status errors_take(glint_errors *errors, const glint_error *error, place w
         append(errors, &copy);
     }
     return error->status;
+}
+
+/* True when b must stand before a: same file, earlier place. */
+static bool is_later(const glint_error *a, const glint_error *b)
+{
+    if (strcmp(a->file, b->file) != 0 || !a->file[0]) return false;
+    return a->line != b->line ? a->line > b->line : a->column > b->column;
+}
+
+void errors_sort(glint_errors *errors, size_t first)
+{
+    for (size_t i = first + 1; errors && i < errors->count; i++) {
+        size_t at = i; /* files keep the order of their first entries */
+        for (size_t k = i; k > first; k--)
+            if (is_later(&errors->items[k - 1], &errors->items[i])) at = k - 1;
+        const glint_error moved = errors->items[i];
+        memmove(&errors->items[at + 1], &errors->items[at], (i - at) * sizeof moved);
+        errors->items[at] = moved;
+    }
 }
 
 glint_status error_no_memory(glint_error *error)

@@ -37,6 +37,9 @@ void errors_warn(glint_errors *errors, place where, const char *format, ...) GLI
  * status. */
 glint_status errors_take(glint_errors *errors, const glint_error *error, place where);
 
+/* Puts the entries from `first` on in the order of their places within each file. */
+void errors_sort(glint_errors *errors, size_t first);
+
 /* The usual text for memory that is out; returns GLINT_INTERNAL. */
 glint_status error_no_memory(glint_error *error);
 

@@ -146,10 +146,10 @@ const char *nearest_name(const char *wanted, const char *const *names, size_t n)
         }
     }
     /* A slip changes few letters: at most one in three of the longer name, and two at the least
-     * for names of four letters or more. */
+     * for names of four letters or more; single letters are never slips of each other. */
     if (!nearest) return NULL;
     const size_t a = strlen(wanted), b = strlen(nearest), longer = a > b ? a : b;
-    const size_t limit = longer < 4 ? 1 : longer / 3 > 2 ? longer / 3 : 2;
+    const size_t limit = longer < 2 ? 0 : longer < 4 ? 1 : longer / 3 > 2 ? longer / 3 : 2;
     return least <= limit ? nearest : NULL;
 }
 

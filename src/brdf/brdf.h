@@ -55,10 +55,12 @@ typedef struct brdf_model {
      * an optional one that was not given is NAN) into the numbers that the kernel reads. Errors
      * (GLINT_INPUT): combinations that make no sense. */
     glint_status (*prepare)(const double *params, double coef[BRDF_MAX_COEF], glint_error *error);
-    /* g = f ci cr for one pair; i, r in the facet's frame (t, b, n), unit. */
+    /* g = f ci cr, 1/sr, for one pair; i, r in the facet's frame (t, b, n), unit. Here and below
+     * coef has all BRDF_MAX_COEF entries, of which `prepare` fills the model's own. */
     double (*eval)(const double *coef, const double i[3], const double r[3]);
     /* sum[k] += sum over facets of weight * g * area * visible[facet * BRDF_TILE + k], for every
-     * lane k, m^2/sr. visible: NULL for all 1. The fused kernel: same formula as eval. */
+     * lane k, m^2/sr. visible: NULL for all 1. The fused kernel: same formula as eval. A lane's
+     * result depends on that lane alone, and its facets are added in their order. */
     void (*tile)(const double *coef, double weight, const brdf_facets *facets,
                  const brdf_light *light, const double *visible, double sum[BRDF_TILE]);
 } brdf_model;

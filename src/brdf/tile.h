@@ -34,6 +34,28 @@
 #define BRDF_CLONES
 #endif
 
+/* Everything that the kernel calls becomes part of it: only so can it be vectorised, and compiled
+ * for the processor that it is chosen for. */
+#if defined(__GNUC__)
+#define BRDF_FLATTEN __attribute__((flatten))
+#else
+#define BRDF_FLATTEN
+#endif
+
+/* The cosines of a tile's directions to facet f; false when none of the pairs is on its front. */
+static inline bool tile_cosines(const brdf_facets *facets, int f, const brdf_light *light,
+                                double ci[BRDF_TILE], double cr[BRDF_TILE])
+{
+    const double n0 = facets->normal[0][f], n1 = facets->normal[1][f], n2 = facets->normal[2][f];
+    int64_t any = 0; /* as wide as a double, so that it fits the vectors */
+    for (int k = 0; k < BRDF_TILE; k++) {
+        ci[k] = n0 * light->i[0][k] + n1 * light->i[1][k] + n2 * light->i[2][k];
+        cr[k] = n0 * light->r[0][k] + n1 * light->r[1][k] + n2 * light->r[2][k];
+        any |= -(int64_t)(ci[k] > BRDF_EDGE) & -(int64_t)(cr[k] > BRDF_EDGE);
+    }
+    return any != 0;
+}
+
 #endif
 
 static double brdf_eval(const double *coef, const double i[3], const double r[3])
@@ -48,50 +70,51 @@ static double brdf_eval(const double *coef, const double i[3], const double r[3]
     return BRDF_LANE(coef, &l);
 }
 
-BRDF_CLONES
-static void brdf_tile(const double *coef, double weight, const brdf_facets *facets,
-                      const brdf_light *light, const double *visible, double sum[BRDF_TILE])
+/* Adds facet f to the lanes' totals: scale[k] g. The facet's numbers are read into locals first,
+ * since the compiler cannot know that the totals do not lie among them. */
+static inline void brdf_tile_add(const double *coef, const brdf_facets *facets, int f,
+                                 const brdf_light *light, const double ci[BRDF_TILE],
+                                 const double cr[BRDF_TILE], const double scale[BRDF_TILE],
+                                 double total[BRDF_TILE])
 {
-    double c[BRDF_MAX_COEF], total[BRDF_TILE] = {0};
+    const double t0 = facets->tangent[0][f], t1 = facets->tangent[1][f];
+    const double t2 = facets->tangent[2][f], b0 = facets->bitangent[0][f];
+    const double b1 = facets->bitangent[1][f], b2 = facets->bitangent[2][f];
+    for (int k = 0; k < BRDF_TILE; k++) {
+        const double i0 = light->i[0][k], i1 = light->i[1][k], i2 = light->i[2][k];
+        const double r0 = light->r[0][k], r1 = light->r[1][k], r2 = light->r[2][k];
+        const double h0 = light->h[0][k], h1 = light->h[1][k], h2 = light->h[2][k];
+        const brdf_lane l = {.ci = ci[k],
+                             .cr = cr[k],
+                             .ht = t0 * h0 + t1 * h1 + t2 * h2,
+                             .hb = b0 * h0 + b1 * h1 + b2 * h2,
+                             .hn = ci[k] + cr[k],
+                             .hh = light->hh[k],
+                             .hlen = light->hlen[k],
+                             .it = t0 * i0 + t1 * i1 + t2 * i2,
+                             .ib = b0 * i0 + b1 * i1 + b2 * i2,
+                             .rt = t0 * r0 + t1 * r1 + t2 * r2,
+                             .rb = b0 * r0 + b1 * r1 + b2 * r2};
+        const double g = scale[k] * BRDF_LANE(coef, &l);
+        const bool lit = (ci[k] > BRDF_EDGE) & (cr[k] > BRDF_EDGE);
+        total[k] += lit ? g : 0.0;
+    }
+}
+
+BRDF_CLONES BRDF_FLATTEN static void brdf_tile(const double *coef, double weight,
+                                               const brdf_facets *facets, const brdf_light *light,
+                                               const double *visible, double sum[BRDF_TILE])
+{
+    double c[BRDF_MAX_COEF]; /* a copy that nothing else can point at */
+    _Alignas(64) double ci[BRDF_TILE], cr[BRDF_TILE], scale[BRDF_TILE], total[BRDF_TILE] = {0};
     memcpy(c, coef, sizeof c);
     for (int f = 0; f < facets->n; f++) {
-        const double n0 = facets->normal[0][f], n1 = facets->normal[1][f];
-        const double n2 = facets->normal[2][f];
-        double ci[BRDF_TILE], cr[BRDF_TILE], seen[BRDF_TILE];
-        int64_t any = 0;
+        if (!tile_cosines(facets, f, light, ci, cr)) continue;
         const double *part = visible ? visible + (size_t)f * BRDF_TILE : NULL;
-        for (int k = 0; k < BRDF_TILE; k++) {
-            ci[k] = n0 * light->i[0][k] + n1 * light->i[1][k] + n2 * light->i[2][k];
-            cr[k] = n0 * light->r[0][k] + n1 * light->r[1][k] + n2 * light->r[2][k];
-        }
+        const double area = weight * facets->area[f];
         for (int k = 0; k < BRDF_TILE; k++)
-            any |= -(int64_t)(ci[k] > BRDF_EDGE) & -(int64_t)(cr[k] > BRDF_EDGE);
-        if (!any) continue;
-        const double scale = weight * facets->area[f];
-        for (int k = 0; k < BRDF_TILE; k++)
-            seen[k] = part ? scale * part[k] : scale;
-        const double t0 = facets->tangent[0][f], t1 = facets->tangent[1][f];
-        const double t2 = facets->tangent[2][f];
-        const double b0 = facets->bitangent[0][f], b1 = facets->bitangent[1][f];
-        const double b2 = facets->bitangent[2][f];
-        for (int k = 0; k < BRDF_TILE; k++) {
-            const double i0 = light->i[0][k], i1 = light->i[1][k], i2 = light->i[2][k];
-            const double r0 = light->r[0][k], r1 = light->r[1][k], r2 = light->r[2][k];
-            const double h0 = light->h[0][k], h1 = light->h[1][k], h2 = light->h[2][k];
-            const brdf_lane l = {.ci = ci[k],
-                                 .cr = cr[k],
-                                 .ht = t0 * h0 + t1 * h1 + t2 * h2,
-                                 .hb = b0 * h0 + b1 * h1 + b2 * h2,
-                                 .hn = ci[k] + cr[k],
-                                 .hh = light->hh[k],
-                                 .hlen = light->hlen[k],
-                                 .it = t0 * i0 + t1 * i1 + t2 * i2,
-                                 .ib = b0 * i0 + b1 * i1 + b2 * i2,
-                                 .rt = t0 * r0 + t1 * r1 + t2 * r2,
-                                 .rb = b0 * r0 + b1 * r1 + b2 * r2};
-            const double g = seen[k] * BRDF_LANE(c, &l);
-            total[k] += (ci[k] > BRDF_EDGE) & (cr[k] > BRDF_EDGE) ? g : 0.0;
-        }
+            scale[k] = part ? area * part[k] : area;
+        brdf_tile_add(c, facets, f, light, ci, cr, scale, total);
     }
     for (int k = 0; k < BRDF_TILE; k++)
         sum[k] += total[k];

@@ -53,6 +53,8 @@ static void print_parameter(FILE *out, const glint_brdf_param *p, const widths *
     range_text(p, range);
     if (p->required)
         snprintf(standard, sizeof standard, "required");
+    else if (isnan(p->default_value))
+        snprintf(standard, sizeof standard, "optional");
     else
         snprintf(standard, sizeof standard, "default %g", p->default_value);
     fprintf(out, "    %-*s  %-*s  %-*s  %-12s  %s\n", w->name, p->name, w->unit, p->unit, w->range,

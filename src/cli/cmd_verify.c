@@ -14,7 +14,8 @@ static glint_status verify_file(const char *path, const options *o, FILE *out, t
     const glint_status status =
         glint_verify(path, o->overrides, o->n_overrides, o->threads, &verdict, errors);
     if (status == GLINT_OK)
-        fprintf(out, "ok    %s: %lld expectations\n", path, (long long)verdict.expectations);
+        fprintf(out, "ok    %s: %lld expectation%s\n", path, (long long)verdict.expectations,
+                verdict.expectations == 1 ? "" : "s");
     else if (verdict.deviations > 0)
         fprintf(out, "FAIL  %s: %lld of %lld expectations not met\n", path,
                 (long long)verdict.deviations, (long long)verdict.expectations);

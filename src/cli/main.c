@@ -52,7 +52,7 @@ static glint_status print_completion(const char *shell)
 }
 
 /* A command line that begins with an option of glint itself. */
-static glint_status run_program(int n, char *const *words)
+static glint_status run_program(int n, const char *const *words)
 {
     options o;
     glint_error error;
@@ -84,7 +84,7 @@ static glint_status check_operands(const command *c, size_t n, glint_error *erro
     return GLINT_OK;
 }
 
-static glint_status run_command(const command *c, int n, char *const *words)
+static glint_status run_command(const command *c, int n, const char *const *words)
 {
     options o;
     glint_error error;
@@ -99,23 +99,22 @@ static glint_status run_command(const command *c, int n, char *const *words)
     return status;
 }
 
-static glint_status dispatch(int n, char *const *words)
+static glint_status dispatch(int n, const char *const *words)
 {
     if (n == 0) {
         help_program(stderr);
         return GLINT_ARGUMENT;
     }
     if (words[0][0] == '-') return run_program(n, words);
-    const char *const *names = (const char *const *)words;
     if (strcmp(words[0], "help") == 0)
         return n > 1 && words[1][0] == '-' ? show_help(0, NULL)
-                                           : show_help((size_t)n - 1, names + 1);
+                                           : show_help((size_t)n - 1, words + 1);
     if (n == 2 && (strcmp(words[1], "--help") == 0 || strcmp(words[1], "-h") == 0))
-        return show_help(1, names);
+        return show_help(1, words);
     const command *c;
     int used;
     glint_error error;
-    const glint_status status = command_find(n, names, &c, &used, &error);
+    const glint_status status = command_find(n, words, &c, &used, &error);
     if (status) return refuse(&error, NULL);
     return run_command(c, n - used, words + used);
 }
@@ -126,11 +125,10 @@ int main(int argc, char **argv)
     /* A pipe whose reader left is an error of writing like any other, so that an output file that
      * is not that pipe still gets finished; only the message is left out. */
     signal(SIGPIPE, SIG_IGN);
-    glint_status status = dispatch(argc > 0 ? argc - 1 : 0, argv + 1);
-    fflush(stdout);
-    const bool reader_left = output_reader_left();
+    glint_status status = dispatch(argc > 0 ? argc - 1 : 0, (const char *const *)argv + 1);
+    bool reader_left;
     glint_error error;
-    if (output_close_stdout(&error) != GLINT_OK && status < GLINT_OUTPUT) {
+    if (output_close_stdout(&reader_left, &error) != GLINT_OK && status < GLINT_OUTPUT) {
         if (!reader_left) report_error(&error);
         status = GLINT_OUTPUT;
     }

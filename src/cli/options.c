@@ -36,7 +36,7 @@ const option_info *option_get(option_id id)
 /* Where the reading stands. */
 typedef struct reader {
     int n, at;
-    char *const *words;
+    const char *const *words;
     unsigned accepted;
     const char *const *formats;
     options *out;
@@ -194,8 +194,8 @@ static glint_status read_letters(reader *r, const char *letters)
     return GLINT_OK;
 }
 
-glint_status options_read(int n, char *const *words, unsigned accepted, const char *const *formats,
-                          options *out, glint_error *error)
+glint_status options_read(int n, const char *const *words, unsigned accepted,
+                          const char *const *formats, options *out, glint_error *error)
 {
     *out = (options){0};
     reader r = {n, 0, words, accepted, formats, out, error};

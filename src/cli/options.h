@@ -54,8 +54,8 @@ typedef struct options {
  * formats: what --format may name, NULL at the end (NULL where --format is not accepted).
  * Errors: GLINT_ARGUMENT, naming the nearest option where the given one is unknown; GLINT_INTERNAL.
  * options_free ends *out in every case. */
-glint_status options_read(int n, char *const *words, unsigned accepted, const char *const *formats,
-                          options *out, glint_error *error);
+glint_status options_read(int n, const char *const *words, unsigned accepted,
+                          const char *const *formats, options *out, glint_error *error);
 void options_free(options *o);
 
 /* True when that option stood on the line. */

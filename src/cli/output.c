@@ -102,13 +102,19 @@ glint_status output_finish(output *o, glint_error *error)
     return status;
 }
 
-glint_status output_close_stdout(glint_error *error)
+glint_status output_close_stdout(bool *reader_left, glint_error *error)
 {
-    const bool failed = ferror(stdout) != 0;
+    bool good = !ferror(stdout);
     errno = 0;
-    if (fclose(stdout) == 0 && !failed) return GLINT_OK;
-    const char *why = errno ? strerror(errno) : "an earlier write failed";
-    return error_say(error, GLINT_OUTPUT, "cannot write standard output: %s", why);
+    good = fflush(stdout) == 0 && good;
+    int number = errno;
+    *reader_left = output_reader_left();
+    errno = 0;
+    good = fclose(stdout) == 0 && good;
+    if (good) return GLINT_OK;
+    if (number == 0) number = errno;
+    return error_say(error, GLINT_OUTPUT, "cannot write standard output%s%s", number ? ": " : "",
+                     number ? strerror(number) : ""); /* of an earlier write, the reason is gone */
 }
 
 bool output_reader_left(void)

@@ -23,8 +23,9 @@ glint_status output_open(output *o, const char *path, glint_error *error);
  * written to. Errors: GLINT_OUTPUT; GLINT_INTERNAL. */
 glint_status output_finish(output *o, glint_error *error);
 
-/* Flushes and closes stdout. Errors: GLINT_OUTPUT. */
-glint_status output_close_stdout(glint_error *error);
+/* Flushes and closes stdout. *reader_left: as output_reader_left says before that. Errors:
+ * GLINT_OUTPUT. */
+glint_status output_close_stdout(bool *reader_left, glint_error *error);
 
 /* True when stdout is a pipe that nobody reads any more (`glint run ... | head`). */
 bool output_reader_left(void);

@@ -110,7 +110,7 @@ void report_summary(const glint_summary *s)
                 "brighter   than 6: %.1f %%, than 7: %.1f %% of the rows with a magnitude\n",
                 s->percent_brighter_6, s->percent_brighter_7);
     }
-    fprintf(stderr, "time       sunlit %s, visible %s\n", sunlit, visible);
+    if (s->has_utc) fprintf(stderr, "time       sunlit %s, visible %s\n", sunlit, visible);
     if (s->bright_rows > 0) {
         fprintf(stderr, "brightest  %s %.3f at ", s->band, s->magnitude_min);
         if (s->has_utc) {

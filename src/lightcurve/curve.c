@@ -12,9 +12,9 @@
 
 #include "glint_version.h"
 
-/* Rows that are computed together. A multiple of TILE; large enough that threads rarely wait for each
- * other, small enough to stay in the cache. */
-enum { BLOCK_TILES = 128, BLOCK = BLOCK_TILES * TILE };
+/* Rows that are computed together, a multiple of TILE: as many as these, so that threads rarely wait for
+ * each other, but fewer where rows are wide. */
+enum { BLOCK_MOST = 512 * TILE, BLOCK_NUMBERS = 1 << 22 };
 
 /* What one thread needs for a tile. */
 typedef struct worker {
@@ -31,8 +31,9 @@ struct glint_curve {
     worker *workers;  /* owned; n_threads */
     frame_grid *grid; /* owned; covers grid_from_s to grid_to_s */
     double grid_from_s, grid_to_s;
+    size_t block; /* rows of a block */
     int64_t next; /* first step of the next block */
-    glint_row *rows, *chosen; /* owned; BLOCK */
+    glint_row *rows, *chosen; /* owned; block */
     double *flux_ratio, *magnitude, *share_material, *share_component; /* owned */
     column_set columns;
     fact_list facts;
@@ -65,12 +66,17 @@ static bool make_workers(glint_curve *c)
 static bool make_rows(glint_curve *c)
 {
     const model *m = &c->s->satellite.model;
-    c->rows = calloc(BLOCK, sizeof *c->rows);
-    c->chosen = calloc(BLOCK, sizeof *c->chosen);
-    c->flux_ratio = calloc((size_t)BLOCK * (size_t)c->s->n_bands, sizeof(double));
-    c->magnitude = calloc((size_t)BLOCK * (size_t)c->s->n_bands, sizeof(double));
-    c->share_material = calloc((size_t)BLOCK * (size_t)m->n_materials, sizeof(double));
-    c->share_component = calloc((size_t)BLOCK * (size_t)m->n_components, sizeof(double));
+    const size_t n_bands = (size_t)c->s->n_bands, n_materials = (size_t)m->n_materials,
+                 n_components = (size_t)m->n_components;
+    const size_t width = 2 * n_bands + n_materials + n_components;
+    const size_t fitting = BLOCK_NUMBERS / width / TILE * TILE;
+    c->block = fitting < TILE ? TILE : fitting > BLOCK_MOST ? BLOCK_MOST : fitting;
+    c->rows = calloc(c->block, sizeof *c->rows);
+    c->chosen = calloc(c->block, sizeof *c->chosen);
+    c->flux_ratio = calloc(c->block * n_bands, sizeof(double));
+    c->magnitude = calloc(c->block * n_bands, sizeof(double));
+    c->share_material = calloc(c->block * n_materials, sizeof(double));
+    c->share_component = calloc(c->block * n_components, sizeof(double));
     return c->rows && c->chosen && c->flux_ratio && c->magnitude && c->share_material &&
            c->share_component;
 }
@@ -216,7 +222,8 @@ glint_status glint_curve_next(glint_curve *c, const glint_row **rows, size_t *n,
     *rows = c->chosen;
     *n = 0;
     while (*n == 0 && c->next < c->s->n_steps) {
-        const int64_t left = c->s->n_steps - c->next, count = left < BLOCK ? left : BLOCK;
+        const int64_t left = c->s->n_steps - c->next, block = (int64_t)c->block;
+        const int64_t count = left < block ? left : block;
         glint_status status = cover_block(c, count, error);
         if (!status) status = compute_block(c, count, error);
         if (status) {

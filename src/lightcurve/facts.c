@@ -92,6 +92,7 @@ static uint64_t scenario_hash(const glint_scenario *s)
         hash = hash_bytes(hash, s->geometry.sun, n * sizeof *s->geometry.sun);
         hash = hash_bytes(hash, s->geometry.observer, n * sizeof *s->geometry.observer);
         hash = hash_bytes(hash, s->geometry.range_m, n * sizeof *s->geometry.range_m);
+        hash = hash_bytes(hash, s->geometry.t_s, n * sizeof *s->geometry.t_s);
     }
     return hash;
 }

@@ -138,7 +138,8 @@ static void fill_site(const glint_scenario *s, const sighting *seen, int k, tile
     mat_vec(seen->frames.itrs_gcrs, seen->sight_gcrs, itrs);
     mat_vec(s->site.enu_itrs, itrs, enu);
     const double azimuth = atan2(enu[0], enu[1]);
-    out->azimuth[k] = azimuth < 0 ? azimuth + TWO_PI : azimuth;
+    const double turned = azimuth + TWO_PI; /* may round to a full turn: that is 0 */
+    out->azimuth[k] = azimuth >= 0 ? azimuth : turned < TWO_PI ? turned : 0;
     out->elevation[k] = atan2(enu[2], hypot(enu[0], enu[1]));
     out->seen[k] = out->elevation[k] >= s->min_elevation;
     sun_from_point(&seen->frames, seen->site_gcrs_m, s->aberration, sun, &distance_m);

@@ -161,6 +161,7 @@ static void hold_table(verification *v, const glint_row *row)
                          .source = ""};
         e.empty = cell->text[0] == '\0';
         if (!e.empty && !number_read(cell->text, strlen(cell->text), &e.value)) {
+            v->verdict.expectations++;
             deviate(v, e.where, "column '%s' has '%.40s'; expected a number or nothing",
                     t->columns[c], cell->text);
             continue;
@@ -245,9 +246,11 @@ static void judge_missing_rows(verification *v)
         else
             deviate(v, e->where, "there is no row at t_s = %.9g", e->t_s);
     }
-    if (v->s->has_expected_table && v->row != v->s->expected.csv.n_rows)
+    if (v->s->has_expected_table && v->row != v->s->expected.csv.n_rows) {
+        v->verdict.expectations++;
         deviate(v, v->s->expected.where, "the run has %lld rows; the expected table has %ld",
                 (long long)v->row, v->s->expected.csv.n_rows);
+    }
 }
 
 static glint_status hold_all(verification *v, glint_curve *curve)

@@ -156,8 +156,9 @@ static glint_status check_fields(const utc_time *utc, place where, glint_error *
 glint_status utc_check(const utc_time *utc, place where, glint_error *error)
 {
     if (utc->year < FIRST_YEAR || utc->year > LAST_YEAR)
-        return error_set(error, GLINT_INPUT, where, "year %04d UTC is out of range; expected %d to %d",
-                         utc->year, FIRST_YEAR, LAST_YEAR);
+        return error_set(error, GLINT_INPUT, where,
+                         "year %04d UTC is out of range; expected %d to %d", utc->year, FIRST_YEAR,
+                         LAST_YEAR);
     const glint_status status = check_fields(utc, where, error);
     if (status || utc->second < 60.0) return status;
     if (utc->hour != 23 || utc->minute != 59)
@@ -189,7 +190,8 @@ glint_status utc_parse(const char *string, place where, utc_time *out, glint_err
     int offset_min;
     if (!take_all(string, &utc, &offset_min))
         return error_set(error, GLINT_INPUT, where,
-                         "'%.40s' is not a time; expected a form like 2025-07-24T19:10:00Z", string);
+                         "'%.40s' is not a time; expected a form like 2025-07-24T19:10:00Z",
+                         string);
     glint_status status = check_fields(&utc, where, error);
     if (status) return status;
     shift_minutes(&utc, offset_min);
@@ -211,8 +213,7 @@ void utc_to_tt(const utc_time *utc, double tt_jd[2], double *tai_minus_utc_s, bo
     double utc_jd[2];
     utc_to_jd(utc, utc_jd);
     utc_jd_to_tt(utc_jd, tt_jd, dubious);
-    if (tai_minus_utc_s)
-        *tai_minus_utc_s = tai_minus_utc(utc->year, utc->month, utc->day, NULL);
+    if (tai_minus_utc_s) *tai_minus_utc_s = tai_minus_utc(utc->year, utc->month, utc->day, NULL);
 }
 
 void utc_jd_to_tt(const double utc_jd[2], double tt_jd[2], bool *dubious)

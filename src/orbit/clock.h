@@ -12,9 +12,9 @@ typedef struct utc_time {
 
 /* Reads "2025-07-24T19:10:00Z": date, 'T' or a blank, hh:mm or hh:mm:ss with any decimals, and
  * nothing, 'Z' or an offset +hh:mm (nothing means UTC; offsets are taken off; 't' and 'z' count as
- * 'T' and 'Z'). A date alone is its 0h. Errors: GLINT_INPUT: not of that form, no such date or time,
- * a year that utc_check refuses, second 60 where there is no leap second. *out is set on success
- * only. */
+ * 'T' and 'Z'). A date alone is its 0h. Errors: GLINT_INPUT: not of that form, no such date or
+ * time, a year that utc_check refuses, second 60 where there is no leap second. *out is set on
+ * success only. */
 glint_status utc_parse(const char *string, place where, utc_time *out, glint_error *error);
 
 /* Checks the calendar (years 1972 to 2100: UTC has whole leap seconds since 1972, the Sun's
@@ -42,10 +42,10 @@ typedef struct run_clock {
     double tai_minus_utc_s; /* at the start */
     double dut1_s;          /* UT1-UTC at the start */
     utc_time start;
-    int64_t start_day;       /* days since 1970-01-01 */
-    int64_t start_s;         /* whole s of the start since 0h UTC of that day */
-    double start_fraction_s; /* the rest of it, 0 <= fraction < 1 */
-    int n_leaps;             /* leap seconds that end after the start, within the span */
+    int64_t start_day;               /* days since 1970-01-01 */
+    int64_t start_s;                 /* whole s of the start since 0h UTC of that day */
+    double start_fraction_s;         /* the rest of it, 0 <= fraction < 1 */
+    int n_leaps;                     /* leap seconds that end after the start, within the span */
     int64_t leap_s[CLOCK_MAX_LEAPS]; /* when each 23:59:60 begins: s since 0h UTC of the start's
                                         day, earlier leap seconds counted */
     bool dubious;                    /* leap seconds not known for the start or the end */
@@ -53,8 +53,8 @@ typedef struct run_clock {
 
 /* start: a checked time; span_s: length of the run in TT s, 0 to 6e9; dut1_s: UT1-UTC in s. */
 void run_clock_start(const utc_time *start, double span_s, double dut1_s, run_clock *clock);
-/* UTC at t_s >= 0 within the span, rounded to the microsecond (never ...:60.000000 but inside a leap
- * second). */
+/* UTC at t_s >= 0 within the span, rounded to the microsecond (never ...:60.000000 but inside a
+ * leap second). */
 void run_clock_utc(const run_clock *clock, double t_s, glint_utc *out);
 /* TT and UT1 at t_s (of any sign) as two-part JD: whole days with the start's first part, and the
  * rest, which stays within a few days of 0 so that it keeps 1e-11 s however long the run. */

@@ -1,5 +1,6 @@
-// earth.cpp: the C face of GeographicLib. Only Forward with its matrix can meet an exception (memory);
-// the other calls throw nothing on the WGS84 objects, and the helpers say so with noexcept.
+// earth.cpp: the C face of GeographicLib. Only Forward with its matrix can meet an exception
+// (memory); the other calls throw nothing on the WGS84 objects, and the helpers say so with
+// noexcept.
 #include "orbit/earth.h"
 
 #include "base/constants.h"
@@ -17,10 +18,12 @@ using GeographicLib::Geocentric;
 namespace
 {
 
-// GeographicLib counts in degrees and returns NaN past 90 deg, which a pole may reach by rounding.
+// GeographicLib counts in degrees and returns NaN past 90 deg. A pole gets there by rounding, and
+// is put back; what lies farther out is no latitude and keeps its NaN.
 double latitude_degrees(double latitude)
 {
-    return std::clamp(latitude / DEG, -90.0, 90.0);
+    const double degrees = latitude / DEG, rounding = 1e-12;
+    return std::fabs(degrees) <= 90.0 + rounding ? std::clamp(degrees, -90.0, 90.0) : degrees;
 }
 
 void fill_site(double latitude, double longitude, double height_m, earth_site *out)
@@ -68,7 +71,8 @@ glint_status earth_site_at(double latitude, double longitude, double height_m, e
     try {
         fill_site(latitude, longitude, height_m, out);
     } catch (const std::exception &e) {
-        return error_set(error, GLINT_INTERNAL, place{nullptr, 0, 0}, "GeographicLib: %s", e.what());
+        return error_set(error, GLINT_INTERNAL, place{nullptr, 0, 0}, "GeographicLib: %s",
+                         e.what());
     } catch (...) {
         return error_set(error, GLINT_INTERNAL, place{nullptr, 0, 0}, "GeographicLib failed");
     }
@@ -98,8 +102,7 @@ void earth_site_look(const earth_site *site, const double r_itrs_m[3], double *a
     *range_m = std::sqrt(level2 + enu[2] * enu[2]);
 }
 
-void earth_geodetic(const double r_itrs_m[3], double *latitude, double *longitude,
-                    double *height_m)
+void earth_geodetic(const double r_itrs_m[3], double *latitude, double *longitude, double *height_m)
 {
     reverse(r_itrs_m, latitude, longitude, height_m);
 }

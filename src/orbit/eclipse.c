@@ -4,8 +4,7 @@
 #include "base/vec.h"
 
 /* (equatorial/polar radius)^2 - 1 of WGS84. */
-static const double STRETCH =
-    1.0 / ((1.0 - EARTH_FLATTENING) * (1.0 - EARTH_FLATTENING)) - 1.0;
+static const double STRETCH = 1.0 / ((1.0 - EARTH_FLATTENING) * (1.0 - EARTH_FLATTENING)) - 1.0;
 
 /* Scalar product after a stretch along the pole that makes the ellipsoid a sphere. */
 static double stretched_dot(const double a[3], const double b[3], const double pole[3])
@@ -42,8 +41,7 @@ double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double 
     const double cos_sun = sqrt(1.0 - sin_sun * sin_sun);
     if (r2 > 1.0 && r_cos_d < cos_sun * sqrt(r2 - 1.0) - sin_sun) return 1.0;
     const double polar = 1.0 - EARTH_FLATTENING, polar2 = polar * polar;
-    if (r2 * sin_sun * sin_sun < polar2 &&
-        r_cos_d > cos_sun * sqrt(r2 - polar2) + sin_sun * polar)
+    if (r2 * sin_sun * sin_sun < polar2 && r_cos_d > cos_sun * sqrt(r2 - polar2) + sin_sun * polar)
         return 0.0;
 
     const double length = sqrt(r2), down[3] = {-r[0] / length, -r[1] / length, -r[2] / length};
@@ -69,7 +67,7 @@ double eclipse_disc_fraction(double a, double b, double d)
     const double at_a = atan2(area4, a * a + (d - b) * (d + b));
     const double at_b = atan2(area4, b * b + (d - a) * (d + a));
     /* Two circular segments make the lens. */
-    const double lens = a * a * (at_a - sin(at_a) * cos(at_a)) +
-                        b * b * (at_b - sin(at_b) * cos(at_b));
+    const double lens =
+        a * a * (at_a - sin(at_a) * cos(at_a)) + b * b * (at_b - sin(at_b) * cos(at_b));
     return fmin(1.0, fmax(0.0, 1.0 - lens / (PI * a * a)));
 }

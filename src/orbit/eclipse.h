@@ -12,7 +12,7 @@ double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double 
                                const double pole[3]);
 
 /* Uncovered fraction of a disc of angular radius a behind one of radius b at distance d (all rad,
- * treated as plane). */
+ * at least 0, treated as plane). a = 0 is a point: 1 or 0. */
 double eclipse_disc_fraction(double a, double b, double d);
 
 #endif

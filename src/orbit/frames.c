@@ -86,7 +86,8 @@ static bool table_cover(node_table *table, int64_t first, int64_t last)
     return true;
 }
 
-/* n nodes in a row from k on: in the table, or evaluated into `room` where it does not hold them. */
+/* n nodes in a row from k on: in the table, or evaluated into `room` where it does not hold them.
+ */
 static const double *table_nodes(const node_table *table, int64_t k, int n, double *room)
 {
     if (k >= table->first && k + n <= table->first + table->count)
@@ -98,9 +99,9 @@ static const double *table_nodes(const node_table *table, int64_t k, int n, doub
 
 /* ------------------------------------------------------------- preparation */
 
-static double days_since_j2000(const double tt_jd[2])
+static double days_since_j2000(const double jd[2])
 {
-    return (tt_jd[0] - ERFA_DJ00) + tt_jd[1];
+    return (jd[0] - ERFA_DJ00) + jd[1];
 }
 
 static double tt_days_at(const run_clock *clock, double t_s)
@@ -168,7 +169,8 @@ static void sun_interpolate(const node_table *table, double days, double state[S
 {
     double room[SUN_NODES * SUN_WIDTH];
     const double position = days / SUN_STEP_DAYS, base = floor(position), u = position - base;
-    const double *node = table_nodes(table, (int64_t)base, SUN_NODES, room), *next = node + SUN_WIDTH;
+    const double *node = table_nodes(table, (int64_t)base, SUN_NODES, room),
+                 *next = node + SUN_WIDTH;
     const double h_s = SUN_STEP_DAYS * DAY_S, v = 1.0 - u;
     const double step = u * u * (3.0 - 2.0 * u), start = u * v * v * h_s, end = -u * u * v * h_s;
     const double d_step = 6.0 * u * v / h_s, d_start = v * (1.0 - 3.0 * u),
@@ -224,8 +226,8 @@ static double rotation_angle(const double ut1_jd[2])
 }
 
 /* GMST82 less the Earth rotation angle, rad, but for whole turns: Aoki et al. 1982, Astron.
- * Astrophys. 105, 359, which is eraGmst82, in s of time; the time of day is in both angles and
- * cancels. At UT1 noon of J2000.0, 43 200 s, GMST82 is 24 110.54841 s. */
+ * Astrophys. 105, 359, which is eraGmst82, in s of time. The time of day is in both angles and
+ * cancels, but that theirs counts from midnight and a JD from noon: 43 200 s. */
 static double gmst82_minus_rotation(const double ut1_jd[2])
 {
     const double days = days_since_j2000(ut1_jd), centuries = days / 36525.0;

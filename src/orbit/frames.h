@@ -10,18 +10,18 @@ typedef struct earth_orientation {
 } earth_orientation;
 
 /* Slow quantities over a stretch of the run, tabulated at fixed moments (multiples of the grid step
- * from J2000.0 TT, so that the result at a moment never depends on how the run was cut into blocks).
- * X, Y, s every 0.25 d (4-point Lagrange); Sun and Earth every 0.5 d (cubic Hermite). A run whose
- * step is longer than 0.25 d has fewer moments than grid points: there they are evaluated in full
- * instead. Owned arrays; reading it changes nothing, so threads may share it. */
+ * from J2000.0 TT, so that the result at a moment never depends on how the run was cut into
+ * blocks). X, Y, s every 0.25 d (4-point Lagrange); Sun and Earth every 0.5 d (cubic Hermite). A
+ * run whose step is longer than 0.25 d has fewer moments than grid points: there they are evaluated
+ * in full instead. Owned arrays; reading it changes nothing, so threads may share it. */
 typedef struct frame_grid frame_grid;
 
 /* Prepares a stretch from t0_s to t1_s (TT s from the clock's start, t0 <= t1; a margin of 2 s for
  * light times is added inside). clock, orientation: copied. step_s: the run's step, which alone
  * decides between the grid and full evaluation, so that all blocks of a run agree. *grid is made
  * when NULL, else used again: what it holds of the new stretch is kept. Moments outside the stretch
- * are answered with the same bits, but 500 times more slowly. Errors: GLINT_INTERNAL (memory); *grid
- * stays valid. */
+ * are answered with the same bits, but 500 times more slowly. Errors: GLINT_INTERNAL (memory);
+ * *grid stays valid. */
 glint_status frame_grid_prepare(const run_clock *clock, const earth_orientation *orientation,
                                 double t0_s, double t1_s, double step_s, frame_grid **grid,
                                 glint_error *error);
@@ -30,11 +30,11 @@ void frame_grid_free(frame_grid *grid);
 
 /* All that depends on time alone, at one moment. */
 typedef struct frame_set {
-    double itrs_gcrs[9];           /* v_itrs = R v_gcrs */
-    double gcrs_teme[9];           /* v_gcrs = R v_teme; via ITRS, GMST82 (only if asked for) */
-    double sun_gcrs_m[3];          /* geocentre to Sun, geometric (these three only if asked for) */
-    double sun_velocity_m_s[3];    /* of the Sun relative to the barycentre, GCRS axes */
-    double earth_velocity_m_s[3];  /* of the Earth relative to the barycentre, GCRS axes */
+    double itrs_gcrs[9];          /* v_itrs = R v_gcrs */
+    double gcrs_teme[9];          /* v_gcrs = R v_teme; via ITRS, GMST82 (only if asked for) */
+    double sun_gcrs_m[3];         /* geocentre to Sun, geometric (these three only if asked for) */
+    double sun_velocity_m_s[3];   /* of the Sun relative to the barycentre, GCRS axes */
+    double earth_velocity_m_s[3]; /* of the Earth relative to the barycentre, GCRS axes */
 } frame_set;
 
 enum { FRAMES_TEME = 1u, FRAMES_SUN = 2u }; /* what is wanted besides itrs_gcrs */
@@ -44,8 +44,8 @@ enum { FRAMES_TEME = 1u, FRAMES_SUN = 2u }; /* what is wanted besides itrs_gcrs 
  * 2050: directions to 2e-6 arcsec, the Sun's place to 10 m, velocities to 1e-3 m/s. */
 void frame_grid_at(const frame_grid *grid, double t_s, unsigned wanted, frame_set *out);
 
-/* Direction and distance of the Sun from a point r_gcrs_m: unit vector and m. With aberration: light
- * time over the distance and stellar aberration by the Earth's barycentric velocity; without:
+/* Direction and distance of the Sun from a point r_gcrs_m: unit vector and m. With aberration:
+ * light time over the distance and stellar aberration by the Earth's barycentric velocity; without:
  * geometric. frames: must have been asked for FRAMES_SUN. distance_m: geometric in both cases. */
 void sun_from_point(const frame_set *frames, const double r_gcrs_m[3], bool aberration,
                     double sun_gcrs[3], double *distance_m);

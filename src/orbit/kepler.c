@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* x less whole turns, -pi to pi. 2 pi is split in two, the first part so short that its product with
- * the number of turns is exact; the second is the rest of 2 pi to double precision. */
+/* x less whole turns, -pi to pi. 2 pi is split in two, the first part so short that its product
+ * with the number of turns is exact; the second is the rest of 2 pi to double precision. */
 static double reduce_angle(double x)
 {
     const double head = 0x1.921fb54p+2, tail = 3.968374318722162e-09;
@@ -43,7 +43,7 @@ static double first_guess(double m, double e)
  * a bracket; a correction that would leave it is replaced by a bisection. */
 static double solve(double m, double e)
 {
-    enum { MOST = 64 }; /* two are usual; bisection alone would end within this */
+    enum { MOST = 64 };        /* two are usual; bisection alone would end within this */
     const double close = 1e-4; /* relative; a step of fourth order then leaves rounding only */
     double low = m, high = fmin(m + e, PI);
     double x = fmin(fmax(first_guess(m, e), low), high);
@@ -82,7 +82,8 @@ static glint_status check(const kepler_elements *k, glint_error *error)
                          "eccentricity is %g; expected at least 0 and below 1", k->eccentricity);
     if (!(k->semi_major_axis_m > 0.0 && isfinite(k->semi_major_axis_m)))
         return error_set(error, GLINT_INPUT, PLACE_NONE,
-                         "semi-major axis is %g m; expected a positive number", k->semi_major_axis_m);
+                         "semi-major axis is %g m; expected a positive number",
+                         k->semi_major_axis_m);
     if (!isfinite(k->inclination) || !isfinite(k->raan) || !isfinite(k->argument_of_perigee) ||
         !isfinite(k->mean_anomaly))
         return error_set(error, GLINT_INPUT, PLACE_NONE,
@@ -118,8 +119,7 @@ void kepler_state(const kepler_orbit *orbit, double dt_s, double r_m[3], double 
 {
     const kepler_elements *k = &orbit->at_epoch;
     const double a = k->semi_major_axis_m, b = orbit->semi_minor_axis_m, e = k->eccentricity;
-    const double anomaly =
-        kepler_eccentric_anomaly(k->mean_anomaly + orbit->mean_motion * dt_s, e);
+    const double anomaly = kepler_eccentric_anomaly(k->mean_anomaly + orbit->mean_motion * dt_s, e);
     const double sin_e = sin(anomaly), cos_e = cos(anomaly);
     const double rate = orbit->speed_radius_m2_s / (a * (1.0 - e * cos_e)); /* a dE/dt, m/s */
     const double x = a * (cos_e - e), y = b * sin_e;

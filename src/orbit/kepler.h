@@ -21,10 +21,10 @@ typedef struct kepler_orbit {
     double sin_inclination, cos_inclination;
 } kepler_orbit;
 
-/* elements: in any inertial frame, which is then that of the states. mu: m^3/s^2; j2: dimensionless,
- * 0 for two-body motion; radius_m: equatorial radius that j2 is for. Secular rates: Brouwer 1959,
- * Astron. J. 64, 378, to first order in J2. Errors (GLINT_INPUT, no place): eccentricity not in
- * [0,1), semi-major axis not positive and finite, an angle not finite. */
+/* elements: in any inertial frame, which is then that of the states. mu: m^3/s^2; j2:
+ * dimensionless, 0 for two-body motion; radius_m: equatorial radius that j2 is for. Secular rates:
+ * Brouwer 1959, Astron. J. 64, 378, to first order in J2. Errors (GLINT_INPUT, no place):
+ * eccentricity not in [0,1), semi-major axis not positive and finite, an angle not finite. */
 glint_status kepler_start(const kepler_elements *elements, double mu_m3_s2, double j2,
                           double radius_m, kepler_orbit *out, glint_error *error);
 /* Position (m) and velocity (m/s; of the osculating ellipse, without the precession's own part)

@@ -141,6 +141,46 @@ static void set_higher_drag(drag_terms *d, double a, double s, double tsi)
                    15.0 * c1sq * (2.0 * d->d2 + c1sq));
 }
 
+/* What the drag coefficients are made of (STR3's symbols). */
+typedef struct drag_factors {
+    double eta, eta2, e_eta; /* eta = a e/(a - s); its square; e eta */
+    double q_tsi4;           /* (q0 - s)^4/(a - s)^4 */
+    double k;                /* q_tsi4/|1 - eta^2|^3.5 */
+    double oblate;           /* J2/((a - s)|1 - eta^2|) */
+} drag_factors;
+
+static drag_factors drag_factors_of(double a, double e, double tsi, double q4)
+{
+    const double eta = a * e * tsi, psi2 = fabs(1.0 - eta * eta);
+    const double q_tsi4 = q4 * tsi * tsi * tsi * tsi;
+    return (drag_factors){.eta = eta,
+                          .eta2 = eta * eta,
+                          .e_eta = e * eta,
+                          .q_tsi4 = q_tsi4,
+                          .k = q_tsi4 / (psi2 * psi2 * psi2 * sqrt(psi2)),
+                          .oblate = WGS72_J2 * tsi / psi2};
+}
+
+/* C2: the decay of the semi-major axis over B*. */
+static double drag_c2(const sgp4 *s, const drag_factors *f)
+{
+    return f->k * s->epoch.mean_motion *
+           (s->axis * (1.0 + 1.5 * f->eta2 + f->e_eta * (4.0 + f->eta2)) +
+            0.375 * f->oblate * s->at_epoch.c3 * (8.0 + 3.0 * f->eta2 * (8.0 + f->eta2)));
+}
+
+/* C4: the decay of the eccentricity over B*. */
+static double drag_c4(const sgp4 *s, const drag_factors *f)
+{
+    const double e = s->epoch.eccentricity, eta2 = f->eta2, e_eta = f->e_eta;
+    const double spherical = f->eta * (2.0 + 0.5 * eta2) + e * (0.5 + 2.0 * eta2);
+    const double flat = -3.0 * s->at_epoch.c3 * (1.0 - 2.0 * e_eta + eta2 * (1.5 - 0.5 * e_eta)) +
+                        0.75 * s->at_epoch.c1 * (2.0 * eta2 - e_eta * (1.0 + eta2)) *
+                            cos(2.0 * s->epoch.argument_of_perigee);
+    return 2.0 * s->epoch.mean_motion * f->k * s->axis * (1.0 - e * e) *
+           (spherical - f->oblate / s->axis * flat);
+}
+
 /* All terms of drag (STR3 sec. 6). False where the density law has no value: the mean height of the
  * orbit below 20 km, or a perigee at its pole. */
 static bool set_drag(sgp4 *s, double bstar)
@@ -148,40 +188,26 @@ static bool set_drag(sgp4 *s, double bstar)
     const mean_elements *m = &s->epoch;
     drag_terms *d = &s->drag;
     const double a = s->axis, e = m->eccentricity, beta2 = 1.0 - e * e, n = m->mean_motion;
-    const double perigee = a * (1.0 - e);
+    const double perigee = a * (1.0 - e), p = a * beta2;
     double q4;
     const double height = density_height((perigee - 1.0) * WGS72_RADIUS_KM, &q4);
     if (!(a > height)) return false;
 
     const double tsi = 1.0 / (a - height);
-    const double eta = a * e * tsi, eta2 = eta * eta, e_eta = e * eta;
-    const double psi2 = fabs(1.0 - eta2), q_tsi4 = q4 * tsi * tsi * tsi * tsi;
-    const double k = q_tsi4 / (psi2 * psi2 * psi2 * sqrt(psi2)), oblate = WGS72_J2 * tsi / psi2;
-    const inclination_terms *i = &s->at_epoch;
-    const bool round = e <= 1e-4; /* terms with e in the divisor are dropped */
-    const double c2 = k * n *
-                      (a * (1.0 + 1.5 * eta2 + e_eta * (4.0 + eta2)) +
-                       0.375 * oblate * i->c3 * (8.0 + 3.0 * eta2 * (8.0 + eta2)));
-    const double c3 = round ? 0.0 : -2.0 * q_tsi4 * tsi * (WGS72_J3 / WGS72_J2) * n * i->sin_i / e;
-    const double c4 = 2.0 * n * k * a * beta2 *
-                      (eta * (2.0 + 0.5 * eta2) + e * (0.5 + 2.0 * eta2) -
-                       oblate / a *
-                           (-3.0 * i->c3 * (1.0 - 2.0 * e_eta + eta2 * (1.5 - 0.5 * e_eta)) +
-                            0.75 * i->c1 * (2.0 * eta2 - e_eta * (1.0 + eta2)) *
-                                cos(2.0 * m->argument_of_perigee)));
-    const double c5 = 2.0 * k * a * beta2 * (1.0 + 2.75 * (eta2 + e_eta) + e_eta * eta2);
-    const double p2 = a * beta2 * a * beta2;
-
+    const drag_factors f = drag_factors_of(a, e, tsi, q4);
     d->simple = s->deep_space || perigee < 220.0 / WGS72_RADIUS_KM + 1.0;
-    d->c1 = bstar * c2;
-    d->b4 = bstar * c4;
-    d->b5 = bstar * c5;
+    d->c1 = bstar * drag_c2(s, &f);
+    d->b4 = bstar * drag_c4(s, &f);
+    d->b5 = bstar * 2.0 * f.k * p * (1.0 + 2.75 * (f.eta2 + f.e_eta) + f.e_eta * f.eta2);
     d->t2 = 1.5 * d->c1;
-    d->node = -3.5 * beta2 * (1.5 * WGS72_J2 * n / p2) * i->cos_i * d->c1;
-    d->argument = bstar * c3 * cos(m->argument_of_perigee);
-    d->anomaly = round ? 0.0 : -2.0 / 3.0 * q_tsi4 * bstar / e_eta;
-    d->eta = eta;
-    const double root3 = 1.0 + eta * cos(m->mean_anomaly);
+    d->node = -3.5 * beta2 * (1.5 * WGS72_J2 * n / (p * p)) * s->at_epoch.cos_i * d->c1;
+    if (e > 1e-4) { /* these two have e in the divisor; below, the published code drops them */
+        d->argument = -2.0 * bstar * f.q_tsi4 * tsi * (WGS72_J3 / WGS72_J2) * n *
+                      s->at_epoch.sin_i / e * cos(m->argument_of_perigee);
+        d->anomaly = -2.0 / 3.0 * f.q_tsi4 * bstar / f.e_eta;
+    }
+    d->eta = f.eta;
+    const double root3 = 1.0 + f.eta * cos(m->mean_anomaly);
     d->cube0 = root3 * root3 * root3;
     d->sin_m0 = sin(m->mean_anomaly);
     if (!d->simple) set_higher_drag(d, a, height, tsi);

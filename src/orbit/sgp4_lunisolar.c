@@ -163,8 +163,8 @@ void lunisolar_start(const mean_elements *epoch, double epoch_jd, lunisolar *out
     for (int k = 0; k < 2; k++)
         add_body(&frame, epoch, &bodies[k], &out->body[k], rate);
 
-    /* The node's rate has a factor 1/sin i. STR3 leaves it out within 3 deg of the equator (the
-     * report's 5.2359877e-2 rad), where the division would magnify an effect that hardly exists. */
+    /* The node's rate has a factor 1/sin i. It is left out within 3 deg of the equator, where the
+     * division would magnify an effect that hardly exists (STR3; beside 180 deg AIAA 2006-6753). */
     const double margin = 5.2359877e-2, i = epoch->inclination;
     const double node_rate = i < margin || i > PI - margin ? 0.0 : rate[LS_H] / sin(i);
     out->rate = (mean_elements){.eccentricity = rate[LS_E],

@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-/* WGS72, as element sets are made with it (AIAA 2006-6753, table 1 and appendix). */
+/* WGS72, with which element sets are made (AIAA 2006-6753). */
 #define WGS72_RADIUS_KM 6378.135 /* km */
 #define WGS72_MU_KM3_S2 398600.8 /* km^3/s^2 */
 #define WGS72_J2 1.082616e-3     /* unnormalised zonal harmonics */

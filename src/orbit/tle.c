@@ -37,21 +37,20 @@ typedef struct field {
     const char *like; /* an example */
 } field;
 
-/* clang-format off */
-static const field epoch_year   = {"epoch year", 19, 20, DIGITS, 0, "25"};
-static const field epoch_day    = {"epoch day", 21, 32, FIXED, 24, "206.16725053"};
-static const field half_n_dot   = {"derivative of the mean motion", 34, 43, FIXED, 35, " .00012111"};
-static const field sixth_n_ddot = {"second derivative of the mean motion", 45, 52, POWER, 0, " 00000+0"};
-static const field drag         = {"drag term B*", 54, 61, POWER, 0, " 21923-3"};
-static const field set_number   = {"element set number", 65, 68, OPTIONAL, 0, " 999"};
-static const field inclination  = {"inclination", 9, 16, FIXED, 12, " 51.6348"};
-static const field node         = {"right ascension of the node", 18, 25, FIXED, 21, "118.8254"};
+static const field epoch_year = {"epoch year", 19, 20, DIGITS, 0, "25"};
+static const field epoch_day = {"epoch day", 21, 32, FIXED, 24, "206.16725053"};
+static const field motion_dot = {"derivative of the mean motion", 34, 43, FIXED, 35, " .00012111"};
+static const field motion_dot2 = {
+    "second derivative of the mean motion", 45, 52, POWER, 0, " 00000+0"};
+static const field drag_term = {"drag term B*", 54, 61, POWER, 0, " 21923-3"};
+static const field set_number = {"element set number", 65, 68, OPTIONAL, 0, " 999"};
+static const field inclination = {"inclination", 9, 16, FIXED, 12, " 51.6348"};
+static const field node = {"right ascension of the node", 18, 25, FIXED, 21, "118.8254"};
 static const field eccentricity = {"eccentricity", 27, 33, FRACTION, 0, "0002056"};
-static const field perigee      = {"argument of perigee", 35, 42, FIXED, 38, "114.0852"};
-static const field anomaly      = {"mean anomaly", 44, 51, FIXED, 47, "246.0352"};
-static const field mean_motion  = {"mean motion", 53, 63, FIXED, 55, "15.50079803"};
-static const field revolution   = {"revolution number", 64, 68, OPTIONAL, 0, "52105"};
-/* clang-format on */
+static const field perigee = {"argument of perigee", 35, 42, FIXED, 38, "114.0852"};
+static const field anomaly = {"mean anomaly", 44, 51, FIXED, 47, "246.0352"};
+static const field mean_motion = {"mean motion", 53, 63, FIXED, 55, "15.50079803"};
+static const field revolution = {"revolution number", 64, 68, OPTIONAL, 0, "52105"};
 
 static place at_column(const tle_line *l, int column)
 {
@@ -321,9 +320,9 @@ static glint_status read_line1(const tle_line *l, bool check_sums, tle *out)
     if (!status) status = check_kind(l);
     if (!status) status = read_number(l, &out->number);
     if (!status) status = read_epoch(l, out->epoch_jd);
-    if (!status) status = read_field(l, &half_n_dot, &out->mean_motion_dot);
-    if (!status) status = read_field(l, &sixth_n_ddot, &unused);
-    if (!status) status = read_field(l, &drag, &out->bstar);
+    if (!status) status = read_field(l, &motion_dot, &out->mean_motion_dot);
+    if (!status) status = read_field(l, &motion_dot2, &unused);
+    if (!status) status = read_field(l, &drag_term, &out->bstar);
     if (!status) status = read_field(l, &set_number, &unused);
     if (!status) read_designator(l, out);
     return status;

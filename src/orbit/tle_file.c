@@ -238,7 +238,7 @@ static bool is_better(const tle *a, const tle *b, const double near_jd[2])
 static glint_status take_nearest(const char *path, const set_list *list, const tle_query *query,
                                  tle *out, glint_error *error)
 {
-    tle best, read;
+    tle best = {0}, read;
     bool any = false;
     for (size_t k = 0; k < list->count; k++) {
         const element_set *set = &list->items[k];

@@ -41,14 +41,14 @@ static char *folder_of(const char *path)
     return string_copy(path, slash == path ? 1 : (size_t)(slash - path));
 }
 
-/* "folder/.name.XXXXXX", from malloc. */
+/* "folder/.name.XXXXXX", from malloc; of a long name only the start, since names have 255 bytes. */
 static char *temporary_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
     text t = {0};
     text_append(&t, path, (size_t)(name - path));
-    text_printf(&t, ".%s.XXXXXX", name);
+    text_printf(&t, ".%.200s.XXXXXX", name);
     return t.data;
 }
 
@@ -87,6 +87,9 @@ static glint_status open_beside(out_file *file, const struct stat *old, glint_er
 static glint_status open_path(out_file *file, const char *path, glint_error *error)
 {
     struct stat info;
+    if (!path[0])
+        return error_set(error, GLINT_OUTPUT, PLACE_NONE,
+                         "the name of the output file is empty; expected the name of a file");
     const bool exists = stat(path, &info) == 0;
     if (!exists && errno != ENOENT) return fail(path, "write there", error);
     if (exists && S_ISDIR(info.st_mode))

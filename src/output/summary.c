@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The median comes from a histogram: bins of 0.001 mag between these; what lies outside counts at the
- * ends. */
-static const double FIRST_MAG = -50, LAST_MAG = 100, BIN_MAG = 0.001;
+/* The median comes from a histogram: bins of 0.001 mag from -50 to 100 mag; what lies outside counts at
+ * the ends. */
+static const double FIRST_MAG = -50, BIN_MAG = 0.001;
 enum { BINS = 150000 };
 
 struct summary_maker {
@@ -52,17 +52,22 @@ void summary_add(summary_maker *m, const glint_row *rows, size_t n)
     }
 }
 
+/* The magnitude of that rank, counted from 1, to half a bin. */
+static double ranked(const summary_maker *m, int64_t rank)
+{
+    int64_t count = 0;
+    int bin = 0;
+    while (bin < BINS - 1 && (count += m->bins[bin]) < rank)
+        bin++;
+    const double mag = FIRST_MAG + (bin + 0.5) * BIN_MAG;
+    return fmin(fmax(mag, m->so_far.magnitude_min), m->so_far.magnitude_max);
+}
+
+/* The middle one, or the mean of the two in the middle. */
 static double median_of(const summary_maker *m)
 {
-    const int64_t half = (m->so_far.bright_rows + 1) / 2;
-    int64_t count = 0;
-    for (int bin = 0; bin < BINS; bin++) {
-        count += m->bins[bin];
-        if (count < half) continue;
-        const double mag = FIRST_MAG + (bin + 0.5) * BIN_MAG;
-        return fmin(fmax(mag, m->so_far.magnitude_min), m->so_far.magnitude_max);
-    }
-    return LAST_MAG;
+    const int64_t n = m->so_far.bright_rows;
+    return 0.5 * (ranked(m, (n + 1) / 2) + ranked(m, n / 2 + 1));
 }
 
 void summary_finish(const summary_maker *m, glint_summary *out)

@@ -9,20 +9,50 @@
 /* Rows that one thread formats at a time. */
 enum { CHUNK = 256 };
 
-/* A string in YAML's double quotes: safe for any text. */
+/* Reads one character of UTF-8 from the n > 0 bytes at s; returns its length, 0 where the bytes are no
+ * character (names in element sets may hold anything). */
+static size_t utf8_read(const unsigned char *s, size_t n, unsigned *out)
+{
+    static const unsigned LEAST[5] = {0, 0, 0x80, 0x800, 0x10000}; /* shorter forms are not allowed */
+    const size_t length = s[0] < 0x80             ? 1
+                          : (s[0] & 0xe0) == 0xc0 ? 2
+                          : (s[0] & 0xf0) == 0xe0 ? 3
+                          : (s[0] & 0xf8) == 0xf0 ? 4
+                                                  : 0;
+    if (length == 0 || length > n) return 0;
+    unsigned c = length == 1 ? s[0] : s[0] & (0x7fu >> length);
+    for (size_t i = 1; i < length; i++) {
+        if ((s[i] & 0xc0) != 0x80) return 0;
+        c = c << 6 | (s[i] & 0x3fu);
+    }
+    if (c < LEAST[length] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000)) return 0;
+    *out = c;
+    return length;
+}
+
+/* What YAML does not take as it is, or some reader may take for the end of a line: control
+ * characters, next line, line and paragraph separator, byte order mark, U+FFFE and U+FFFF. */
+static bool needs_escape(unsigned c)
+{
+    return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x2028 || c == 0x2029 || c == 0xfeff ||
+           (c >= 0xfffe && c <= 0xffff);
+}
+
+/* A string in YAML's double quotes, on one line: safe for any bytes. Those that are no UTF-8 are
+ * taken for Latin-1. */
 static void quote(text *t, const char *string, size_t n)
 {
     text_char(t, '"');
-    for (size_t i = 0; i < n; i++) {
-        const unsigned char c = (unsigned char)string[i];
-        if (c == '"' || c == '\\') {
+    for (size_t i = 0, length; i < n; i += length) {
+        unsigned c = (unsigned char)string[i];
+        length = utf8_read((const unsigned char *)string + i, n - i, &c);
+        if (c == '"' || c == '\\')
             text_char(t, '\\');
-            text_char(t, (char)c);
-        } else if (c < 0x20 || c == 0x7f) {
-            text_printf(t, "\\x%02x", c);
-        } else {
-            text_char(t, (char)c);
-        }
+        if (length == 0 || needs_escape(c))
+            text_printf(t, c < 0x100 ? "\\x%02x" : "\\u%04x", c);
+        else
+            text_append(t, string + i, length);
+        if (length == 0) length = 1;
     }
     text_char(t, '"');
 }
@@ -30,6 +60,24 @@ static void quote(text *t, const char *string, size_t n)
 static void quote_whole(text *t, const char *string)
 {
     quote(t, string, strlen(string));
+}
+
+/* What is known of the run. Keys of a YAML map are unique, so what was set makes one list. */
+static void write_facts(const glint_curve *curve, text *t)
+{
+    const char *key, *value;
+    bool in_list = false;
+    for (size_t k = 0; glint_curve_fact(curve, k, &key, &value); k++) {
+        const bool of_list = string_equal(key, "set");
+        if (of_list && !in_list) text_add(t, "# - set:\n");
+        in_list = of_list;
+        if (of_list)
+            text_add(t, "#   - ");
+        else
+            text_printf(t, "# - %s: ", key);
+        quote_whole(t, value);
+        text_add(t, "\n");
+    }
 }
 
 /* ECSV 1.0 (Astropy APE 6): a YAML document in comment lines, then the names of the columns. */
@@ -46,12 +94,7 @@ static void write_header(const glint_curve *curve, text *t)
         text_add(t, "}\n");
     }
     text_add(t, "# meta: !!omap\n");
-    const char *key, *value;
-    for (size_t k = 0; glint_curve_fact(curve, k, &key, &value); k++) {
-        text_printf(t, "# - %s: ", key);
-        quote_whole(t, value);
-        text_add(t, "\n");
-    }
+    write_facts(curve, t);
     text_add(t, "# - scenario:\n");
     for (const char *line = glint_curve_scenario(curve); *line;) {
         const size_t length = strcspn(line, "\n");

@@ -25,6 +25,13 @@ static int param_index(const brdf_model *brdf, const char *name)
     return -1;
 }
 
+/* BRDFs that are planned: their names are known, and refused by name. */
+static bool is_planned(const char *brdf)
+{
+    return string_equal(brdf, "binomial") || string_equal(brdf, "mirror") ||
+           string_equal(brdf, "table");
+}
+
 static const brdf_model *read_brdf_name(reader *r)
 {
     const char *name, *names[64];
@@ -39,9 +46,15 @@ static const brdf_model *read_brdf_name(reader *r)
     for (size_t k = 0; k < n; k++)
         text_printf(&list, "%s%s", k ? ", " : "", names[k]);
     const char *near = nearest_name(name, names, n);
-    reader_fail(r, reader_place(r, "brdf"), "there is no BRDF '%.40s'%s%s%s; expected one of: %s",
-                name, near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "",
-                list.data ? list.data : "");
+    if (is_planned(name))
+        reader_fail(r, reader_place(r, "brdf"),
+                    "the BRDF '%s' is not built yet; expected one of: %s", name,
+                    list.data ? list.data : "");
+    else
+        reader_fail(r, reader_place(r, "brdf"),
+                    "there is no BRDF '%.40s'%s%s%s; expected one of: %s", name,
+                    near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "",
+                    list.data ? list.data : "");
     text_free(&list);
     return NULL;
 }
@@ -166,6 +179,24 @@ static const toml_node *band_overlay(reading *rd, const toml_node *table, const 
     return found;
 }
 
+/* Checks what a material says of bands that this scenario does not use. */
+static void check_other_bands(reading *rd, const toml_node *table)
+{
+    const glint_scenario *s = rd->s;
+    const toml_node *bands = toml_child(table, "bands");
+    for (int i = 0; bands && i < bands->n_children; i++) {
+        const toml_node *overlay = &bands->children[i];
+        const band_info *band = band_named(overlay->key);
+        bool used = false;
+        for (int b = 0; b < s->n_bands; b++)
+            used = used || s->bands[b] == band;
+        if (used || !band || overlay->type != TOML_TABLE) continue;
+        brdf_material unused;
+        reading_note(rd, read_function(table, overlay, band, &unused, table->key, rd->errors));
+        brdf_material_free(&unused);
+    }
+}
+
 static void read_material(reading *rd, const toml_node *table, scenario_material *out)
 {
     glint_scenario *s = rd->s;
@@ -190,6 +221,7 @@ static void read_material(reading *rd, const toml_node *table, scenario_material
         reading_note(rd, status);
         if (status) return;
     }
+    check_other_bands(rd, table);
 }
 
 static bool is_taken(const satellite *sat, const char *name)

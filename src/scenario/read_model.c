@@ -178,6 +178,8 @@ static void read_primitive(reading *rd, const primitive_kind *kind, const toml_n
     for (int k = 0; k < kind->n_keys; k++)
         read_primitive_key(rd, &r, &spec, k);
     read_copies(rd, &r, &spec);
+    if (string_equal(kind->name, "box"))
+        reader_refuse(&r, "crinkle", "this version has flat sides only");
     glint_status status = reader_done(&r);
     if (status == GLINT_OK) status = primitive_add(&spec, component, facets, rd->errors);
     if (status == GLINT_OK && facets->n > MOST_FACETS)
@@ -246,6 +248,15 @@ static int named_component(reading *rd, reader *r, const toml_node *node)
     return found;
 }
 
+static void refuse_planned_primitives(reader *r)
+{
+    static const char *const PLANNED[] = {"cylinder", "cone", "disc", "annulus",
+                                          "dish",     "wing", "boom", "mesh"};
+    for (size_t k = 0; k < sizeof PLANNED / sizeof *PLANNED; k++)
+        if (!primitive_kind_named(PLANNED[k]))
+            reader_refuse(r, PLANNED[k], "this version has plate, facet, box, prism and sphere");
+}
+
 static void read_component(reading *rd, const toml_node *table, int c, facet_list *facets)
 {
     scenario_component *component = &rd->s->satellite.components[c];
@@ -265,6 +276,7 @@ static void read_component(reading *rd, const toml_node *table, int c, facet_lis
         for (int i = 0; list && i < list->n_children; i++)
             read_primitive(rd, kind, &list->children[i], c, facets);
     }
+    refuse_planned_primitives(&r);
     reading_done(rd, &r);
 }
 

@@ -119,9 +119,11 @@ static void read_tle_lines(reading *rd, reader *r, const toml_node *lines)
         return;
     }
     glint_error error;
-    const place second = lines->children[1].where;
-    if (tle_parse(lines->children[0].string, lines->children[1].string, true,
-                  lines->children[0].where, &second, &rd->s->tle, &error))
+    place first = lines->children[0].where, second = lines->children[1].where;
+    first.column++; /* behind the quote */
+    second.column++;
+    if (tle_parse(lines->children[0].string, lines->children[1].string, true, first, &second,
+                  &rd->s->tle, &error))
         r->status = errors_take(rd->errors, &error, lines->where);
 }
 

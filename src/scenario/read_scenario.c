@@ -84,6 +84,18 @@ static void count_steps(reading *rd, reader *r, double span_s)
         s->n_steps = (int64_t)steps + 1;
 }
 
+/* A run that begins in time but goes on past what the ephemeris of the Sun covers. */
+static void check_last_year(reader *r, const run_clock *clock, double span_s)
+{
+    enum { LAST_YEAR = 2100 }; /* as for times that are given: utc_check */
+    glint_utc end;
+    run_clock_utc(clock, span_s, &end);
+    if (end.year > LAST_YEAR)
+        reader_fail(r, reader_place(r, "duration_s"),
+                    "the run ends in the year %d; expected an end not after %d", end.year,
+                    LAST_YEAR);
+}
+
 static void read_time(reading *rd, reader *root)
 {
     static const param_info STEP = {"step_s", "s", "time between rows", 0, 1e9, PARAM_REQUIRED,
@@ -117,6 +129,7 @@ static void read_time(reading *rd, reader *root)
     if (r.status == GLINT_OK && has_start && (has_end || has_duration) && has_step) {
         run_clock_start(&start, span_s, s->dut1_s, &s->clock);
         count_steps(rd, &r, span_s);
+        check_last_year(&r, &s->clock, span_s);
         if (s->clock.dubious)
             errors_warn(rd->errors, table->where,
                         "leap seconds are not known for these years; UTC may be off by a second "
@@ -455,8 +468,9 @@ static bool has_model_file(const toml_document *document)
     return table && toml_child(table, "model");
 }
 
-static glint_status finish(reading *rd, glint_scenario **out)
+static glint_status finish(reading *rd, size_t first_error, glint_scenario **out)
 {
+    errors_sort(rd->errors, first_error);
     if (rd->status) {
         glint_scenario_free(rd->s);
         rd->s = NULL;
@@ -469,6 +483,7 @@ glint_status glint_scenario_read(const char *path, const char *const *overrides,
                                  glint_scenario **out, glint_errors *errors)
 {
     reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK};
+    const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;
     if (start(path, &rd, &document)) {
@@ -482,13 +497,14 @@ glint_status glint_scenario_read(const char *path, const char *const *overrides,
         else if (!rd.status)
             read_all(&rd, document);
     }
-    return finish(&rd, out);
+    return finish(&rd, first_error, out);
 }
 
 glint_status scenario_read_model(const char *path, const char *const *overrides,
                                  size_t n_overrides, glint_scenario **out, glint_errors *errors)
 {
     reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK};
+    const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;
     if (start(path, &rd, &document)) {
@@ -501,7 +517,7 @@ glint_status scenario_read_model(const char *path, const char *const *overrides,
         read_model_tables(&rd, &r);
         reading_done(&rd, &r);
     }
-    return finish(&rd, out);
+    return finish(&rd, first_error, out);
 }
 
 bool scenario_is_model(const toml_document *document)

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -137,9 +138,70 @@ void restore_order(toml_node *node)
         std::qsort(node->children, static_cast<size_t>(node->n_children), sizeof(toml_node), by_place);
 }
 
+// Most parts of one dotted key. toml++ limits how deep values nest, but not how many parts a key has,
+// and trees as deep as that would be walked by recursion.
+constexpr int MOST_KEY_PARTS = 16;
+
+// The index behind the string that begins with the quote at `at`, or of the end of its line where it
+// is not closed.
+size_t skip_string(std::string_view text, size_t at)
+{
+    const char quote = text[at];
+    const bool many_lines = text.size() - at >= 3 && text[at + 1] == quote && text[at + 2] == quote;
+    const size_t width = many_lines ? 3 : 1;
+    for (at += width; at < text.size(); at++) {
+        if (quote == '"' && text[at] == '\\')
+            at++;
+        else if (text[at] == '\n' && !many_lines)
+            return at;
+        else if (text[at] == quote &&
+                 (!many_lines || text.substr(at, 3) == std::string(3, quote)))
+            return at + width;
+    }
+    return text.size();
+}
+
+// The dot with which some key gets too many parts; npos where there is none.
+size_t find_deep_key(std::string_view text)
+{
+    int parts = 1;
+    for (size_t at = 0; at < text.size(); at++) {
+        switch (text[at]) {
+        case '"':
+        case '\'': at = skip_string(text, at) - 1; break;
+        case '#': at = std::min(text.find('\n', at), text.size()) - 1; break;
+        case '.':
+            if (++parts > MOST_KEY_PARTS) return at;
+            break;
+        case ',':
+        case '=':
+        case '[':
+        case ']':
+        case '{':
+        case '}':
+        case '\n': parts = 1; break;
+        default: break;
+        }
+    }
+    return std::string_view::npos;
+}
+
+glint_status refuse_deep_key(std::string_view text, size_t at, const char *path,
+                             glint_errors *errors)
+{
+    const std::string_view before = text.substr(0, at);
+    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+    const size_t start = before.rfind('\n') + 1; // 0 without one
+    return errors_add(errors, GLINT_INPUT,
+                      place{path, static_cast<int>(line), static_cast<int>(at - start) + 1},
+                      "this key has more than %d parts; expected fewer dots", MOST_KEY_PARTS);
+}
+
 glint_status parse(std::string_view text, const char *path, toml_node *root, glint_errors *errors)
 {
     const size_t before = glint_errors_error_count(errors);
+    const size_t deep = find_deep_key(text);
+    if (deep != std::string_view::npos) return refuse_deep_key(text, deep, path, errors);
     try {
         const toml::table table = toml::parse(text, std::string_view(path));
         convert(table, path, errors, root);

@@ -49,8 +49,8 @@ typedef struct toml_document {
 } toml_document;
 
 /* Reads a regular file. asked_from: place of the value that names it, for messages. Errors:
- * GLINT_INPUT: unreadable; the first syntax error with its place; nan and inf among the values, and
- * strings with a zero byte, all of them. */
+ * GLINT_INPUT: unreadable; the first syntax error with its place; a key of more than 16 parts; nan and
+ * inf among the values, and strings with a zero byte, all of them. */
 glint_status toml_read(const char *path, place asked_from, toml_document **out,
                        glint_errors *errors);
 void toml_free(toml_document *document);

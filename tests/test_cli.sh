@@ -1,0 +1,417 @@
+#!/bin/bash
+# The program from outside: help, exit statuses, messages, output files, pipes and terminals.
+# usage: test_cli.sh PROGRAM SOURCE_DIR VERSION
+set -u
+glint=$(readlink -f "$1") source=$2 version=$3
+export LC_ALL=C.UTF-8
+unset NO_COLOR
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+cd "$place" || exit 1
+out=$place/out err=$place/err
+checks=0 failures=0 name=
+
+# ------------------------------------------------------------------ helpers
+
+fail() {
+    failures=$((failures + 1))
+    printf 'FAILED: %s: %s\n' "$name" "$1"
+    sed 's/^/    stdout: /' "$out" | head -n 12
+    sed 's/^/    stderr: /' "$err" | head -n 12
+}
+
+skip() { printf 'SKIPPED: %s: %s\n' "$1" "$2"; }
+
+# t NAME STATUS WORD...: runs `glint WORD...`, and its exit status must be STATUS.
+t() {
+    local want=$2 got=0
+    name=$1
+    shift 2
+    checks=$((checks + 1))
+    "$glint" "$@" >"$out" 2>"$err" </dev/null || got=$?
+    [ "$got" = "$want" ] || fail "exit status $got, expected $want, of: glint $*"
+}
+
+# Each text must (must not) be in the file.
+has() {
+    local file=$1 text
+    shift
+    for text in "$@"; do
+        grep -qF -e "$text" "$file" || fail "'$text' is not in $(basename "$file")"
+    done
+}
+lacks() {
+    local file=$1 text
+    shift
+    for text in "$@"; do
+        ! grep -qF -e "$text" "$file" || fail "'$text' is in $(basename "$file")"
+    done
+}
+lines() { # FILE N
+    [ "$(wc -l <"$1")" = "$2" ] || fail "$(basename "$1") has $(wc -l <"$1") lines, expected $2"
+}
+empty() { [ ! -s "$1" ] || fail "$(basename "$1") is not empty"; }
+# holds NAME COMMAND...: the command must succeed.
+holds() {
+    name=$1
+    shift
+    checks=$((checks + 1))
+    "$@" || fail "not so: $*"
+}
+
+# ------------------------------------------------------------------- inputs
+
+cat >directions.csv <<'END'
+sun_x,sun_y,sun_z,obs_x,obs_y,obs_z
+0,0,1,0,0,1
+0,0,1,1,0,1
+0,0,1,1,0,-1
+END
+cat >plate.toml <<'END'
+title = "A white plate"
+[geometry]
+table = "directions.csv"
+range_km = 1000
+[satellite]
+self_shadows = "none"
+[photometry]
+bands = ["V"]
+solar_disc = "point"
+[materials.white]
+brdf = "lambert"
+rho = 0.5
+[[component]]
+name = "plate"
+[[component.plate]]
+size_m = [1, 1]
+normal = [0, 0, 1]
+tangent = [1, 0, 0]
+material = "white"
+END
+# Lambert: the flux ratio is rho/pi area cos cos / range^2 = 0.5/pi 1e-12 face on.
+cat plate.toml - >good.toml <<'END'
+[[expect]]
+row = 0
+column = "flux_ratio_V"
+value = 1.5915494309189534e-13
+relative = 1e-12
+source = "closed form: Lambert plate"
+[[expect]]
+row = 1
+column = "phase_angle_deg"
+value = 45
+tolerance = 1e-9
+source = "closed form"
+END
+sed 's/^value = 45/value = 44/' good.toml >wrong.toml
+sed 's/^title/titel/; s/^rho = 0.5/rho = 1.5/' plate.toml >broken.toml
+sed 's/^table.*/sweep = { phase_deg = [0, 150, 0.002], plane = "xz" }/' plate.toml >long.toml
+
+# --------------------------------------------------------------------- help
+
+t 'no command: help on stderr' 2
+empty "$out"
+has "$err" 'usage: glint COMMAND'
+t 'help' 0 --help
+empty "$err"
+has "$out" 'run SCENARIO' 'check FILE...' 'verify FILE...' 'brdf list' '--version' 'exit status' example
+lacks "$out" passes shares compare ephemeris view sweep 'brdf show' 'brdf fit' plot
+cp "$out" help
+for words in help -h 'help --help'; do
+    # shellcheck disable=SC2086 # words are wanted
+    t "help by '$words'" 0 $words
+    holds 'the same help' cmp -s help "$out"
+done
+for command in run check verify 'brdf list'; do
+    # shellcheck disable=SC2086
+    t "help of $command" 0 $command --help
+    empty "$err"
+    has "$out" "usage: glint $command" 'example:' "  glint $command" --output --format --threads \
+        --quiet --help
+    cp "$out" help
+    # shellcheck disable=SC2086
+    t "help of $command by help" 0 help $command
+    holds 'the same help' cmp -s help "$out"
+    # shellcheck disable=SC2086
+    t "help of $command among other options" 0 $command --quiet --help nonsense
+    holds 'the same help' cmp -s help "$out"
+done
+t 'help of a group' 0 brdf --help
+has "$out" 'usage: glint brdf list'
+t 'help of a group by help' 0 help brdf
+has "$out" 'usage: glint brdf list'
+t 'version' 0 --version
+holds 'the version alone' [ "$(cat "$out")" = "glint $version" ]
+
+# ----------------------------------------------------- wrong command lines
+
+t 'a slip in a command' 2 rum plate.toml
+empty "$out"
+has "$err" "glint: error: unknown command 'rum'; did you mean 'run'?"
+t 'another word for a command' 2 xyzzy
+has "$err" "unknown command 'xyzzy'; this version has: run, check, verify, brdf list"
+for command in shares compare passes ephemeris view sweep 'brdf show' 'brdf fit'; do
+    # shellcheck disable=SC2086
+    t "$command is not built yet" 2 $command plate.toml
+    empty "$out"
+    has "$err" "'$command' is not built yet; this version has: run, check, verify, brdf list"
+done
+t 'help of a command that is not built' 2 help passes
+t 'half a command' 2 brdf
+has "$err" "needs one more word: list"
+t 'a group without such a member' 2 brdf lst
+has "$err" "has no 'lst'; it has: list"
+t 'an option that is not built' 2 run plate.toml --plot x.png
+has "$err" "'--plot' is not built yet; this command has: --output"
+t 'a slip in an option' 2 run plate.toml --quite
+has "$err" "did you mean '--quiet'?" "'glint run --help' says more"
+t 'an unknown letter' 2 run plate.toml -x
+t 'an unknown option of glint' 2 --versoin
+has "$err" "did you mean '--version'?"
+t 'a value too many' 2 run plate.toml --quiet=1
+t 'a value too few' 2 run plate.toml --set
+t 'no scenario' 2 run
+has "$err" "'glint run' needs SCENARIO"
+t 'two scenarios' 2 run plate.toml good.toml
+t 'no file to check' 2 check
+t 'no file to verify' 2 verify
+t 'a file too many' 2 brdf list plate.toml
+t 'a list without scenario takes no override' 2 brdf list --set a=1
+t 'threads in words' 2 run plate.toml --threads two
+t 'an unknown format' 2 run plate.toml --format json
+has "$err" 'this command writes: csv'
+t 'an override without value' 2 run plate.toml --set time.step_s
+t 'an unknown shell' 2 --completion zsh
+t 'an option alone' 2 --
+
+# ---------------------------------------------------------------------- run
+
+t 'run' 0 run plate.toml
+has "$out" 't_s,mag_V,' '# %ECSV'
+holds 'a header line and three rows' [ "$(grep -vc '^#' "$out")" = 4 ]
+has "$err" 'rows       3, of which 2 have a magnitude' 'magnitude  V: minimum ' 'brighter   than 6: ' \
+    'brightest  V '
+lacks "$err" $'\r' $'\033'
+cp "$out" table
+for words in '--quiet' '-q' '--format csv' '--format=csv' '--threads 1' '--threads=2' '--threads 0'; do
+    # shellcheck disable=SC2086
+    t "the same table with $words" 0 run $words plate.toml
+    holds 'the same table' cmp -s table "$out"
+    case $words in *-q*) empty "$err" ;; esac
+done
+t 'the same table after --' 0 run -- plate.toml
+holds 'the same table' cmp -s table "$out"
+t 'an override' 0 run plate.toml --set 'photometry.bands=["V", "R"]'
+has "$out" mag_V, mag_R,
+t 'two overrides' 0 run plate.toml --set 'photometry.bands=["R"]' --set geometry.range_km=2000
+has "$out" mag_R,
+lacks "$out" mag_V,
+t 'an absent scenario' 1 run absent.toml
+empty "$out"
+has "$err" absent.toml 'No such file'
+t 'a directory' 1 run .
+t 'an empty file name' 1 run ''
+t 'all that is wrong in a file, with places' 1 run broken.toml
+empty "$out"
+has "$err" "broken.toml:1:1: error: " "'title'" 'broken.toml:12:'
+t 'an unknown key by override' 1 run plate.toml --set photometry.band='"V"'
+has "$err" bands
+t 'an override that is no TOML' 1 run plate.toml --set photometry.bands=V]
+t 'control letters of file names are not sent to terminals' 1 run $'ab\033[31msent.toml'
+lacks "$err" $'\033'
+
+# ------------------------------------------------------------- output files
+
+t 'a file' 0 run plate.toml -o file.csv
+empty "$out"
+has "$err" 'rows       3'
+holds 'the same table' cmp -s table file.csv
+(umask 027 && "$glint" run -q plate.toml --output=private.csv)
+holds 'permissions follow the umask' [ "$(stat -c %a private.csv)" = 640 ]
+ln -s file.csv link.csv
+t 'a link' 0 run plate.toml -qolink.csv
+empty "$err"
+holds 'a link stays a link' [ -L link.csv ]
+echo precious >kept.csv
+t 'a run that fails' 1 run broken.toml -o kept.csv
+holds 'leaves the file as it was' [ "$(cat kept.csv)" = precious ]
+t 'a run that fails makes no file' 1 run broken.toml -o new.csv
+holds 'no file' [ ! -e new.csv ]
+t 'a folder that is not there' 3 run plate.toml -o no/such/file.csv
+lines "$err" 1
+has "$err" no/such/file.csv error:
+t 'a folder for a file' 3 run plate.toml -o .
+lines "$err" 1
+t 'a device' 0 run plate.toml -o /dev/null
+holds 'a device stays a device' [ -c /dev/null ]
+t 'a device that is full' 3 run plate.toml -o /dev/full
+lines "$err" 1
+mkfifo fifo
+cat fifo >from-fifo &
+t 'a named pipe' 0 run plate.toml -o fifo
+wait $!
+holds 'the same table' cmp -s table from-fifo
+holds 'a named pipe stays one' [ -p fifo ]
+holds 'nothing left behind' [ -z "$(find . -name '*.??????' -newer plate.toml -name '*csv*')" ]
+for words in 'check plate.toml' 'verify good.toml' 'brdf list'; do
+    # shellcheck disable=SC2086
+    t "$words on stdout" 0 $words
+    cp "$out" wanted
+    # shellcheck disable=SC2086
+    t "$words in a file" 0 $words -o text
+    empty "$out"
+    holds 'the same text' cmp -s wanted text
+    rm text
+    # shellcheck disable=SC2086
+    t "$words in a folder that is not there" 3 $words -o no/such/text
+    has "$err" no/such/text
+    # shellcheck disable=SC2086
+    t "$words to a full device" 3 $words -o /dev/full
+    # shellcheck disable=SC2086
+    t "$words to a device" 0 $words -o /dev/null
+done
+
+# ------------------------------------------------------------ stdout, pipes
+
+for words in --help --version --man 'run plate.toml' 'check plate.toml' 'verify good.toml' 'brdf list'; do
+    name="$words on a full device" checks=$((checks + 1))
+    : >"$out"
+    # shellcheck disable=SC2086
+    "$glint" $words >/dev/full 2>"$err"
+    status=$?
+    [ $status = 3 ] || fail "exit status $status, expected 3"
+    has "$err" 'standard output'
+    name="$words on a closed stdout" checks=$((checks + 1))
+    # shellcheck disable=SC2086
+    "$glint" $words >&- 2>"$err"
+    status=$?
+    [ $status = 3 ] || fail "exit status $status, expected 3"
+done
+name='a reader that leaves early' checks=$((checks + 1))
+"$glint" run long.toml 2>"$err" | head -n 1 >"$out"
+status=${PIPESTATUS[0]}
+[ "$status" = 3 ] || fail "exit status $status, expected 3"
+empty "$err"
+lines "$out" 1
+
+# ------------------------------------------------------------ check, verify
+
+t 'check' 0 check plate.toml
+has "$out" plate.toml white lambert
+empty "$err"
+t 'check goes on after a wrong file' 1 check broken.toml plate.toml absent.toml
+has "$out" plate.toml
+has "$err" broken.toml:1:1: absent.toml
+t 'verify' 0 verify good.toml
+lines "$out" 1
+has "$out" 'ok    good.toml: 2 expectations'
+has "$err" '1 of 1 files as expected, 2 expectations compared'
+t 'verify a deviation' 1 verify good.toml wrong.toml
+lines "$out" 2
+has "$out" 'ok    good.toml: 2 expectations' 'FAIL  wrong.toml: 1 of 2 expectations not met'
+has "$err" 'wrong.toml:' error: phase_angle_deg '1 of 2 files as expected'
+t 'verify in silence' 1 verify -q wrong.toml
+lines "$out" 1
+lines "$err" 1
+t 'verify what expects nothing' 1 verify plate.toml
+has "$out" 'FAIL  plate.toml'
+t 'verify an absent file and go on' 1 verify absent.toml good.toml
+has "$out" 'FAIL  absent.toml' 'ok    good.toml'
+t 'verify with an override' 1 verify good.toml --set materials.white.rho=0.4
+has "$err" flux_ratio_V
+
+t 'brdf list' 0 brdf list
+empty "$err"
+has "$out" 'lambert: ' 'ward: ' 'ward-gmd: ' 'source: ' alpha_x required
+lacks "$out" nan inf
+
+# ---------------------------------------------------------------- terminals
+
+if script -qec true /dev/null >/dev/null 2>&1; then
+    name='colours on a terminal' checks=$((checks + 1))
+    TERM=xterm script -qec "'$glint' run absent.toml" /dev/null >"$out" </dev/null
+    has "$out" $'\033[1;31merror:\033[0m'
+    name='NO_COLOR on a terminal' checks=$((checks + 1))
+    NO_COLOR=1 TERM=xterm script -qec "'$glint' run absent.toml" /dev/null >"$out" </dev/null
+    lacks "$out" $'\033'
+    has "$out" 'error:'
+    name='a dumb terminal' checks=$((checks + 1))
+    TERM=dumb script -qec "'$glint' run absent.toml" /dev/null >"$out" </dev/null
+    lacks "$out" $'\033'
+    name='no progress bar where the table scrolls' checks=$((checks + 1))
+    TERM=xterm script -qec "'$glint' run long.toml" /dev/null >"$out" </dev/null
+    lacks "$out" '#####'
+else
+    skip 'terminals' 'no program script'
+fi
+
+# --------------------------------------------------------- manual, completion
+
+t 'the manual' 0 --man
+empty "$err"
+has "$out" '.TH GLINT 1' '.SH EXIT STATUS' '.SS glint run SCENARIO' '\-\-set'
+lacks "$out" passes
+if command -v groff >/dev/null; then
+    holds 'the manual has no roff errors' [ -z "$(groff -man -Tutf8 -ww "$out" 2>&1 >/dev/null)" ]
+else
+    skip 'the manual has no roff errors' 'no groff'
+fi
+
+t 'completion' 0 --completion bash
+empty "$err"
+cp "$out" completion.bash
+holds 'the completion is bash' bash -n completion.bash
+# complete_words WORD...: what bash would offer for the last word.
+complete_words() {
+    bash -c 'source ./completion.bash; COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _glint
+             printf "%s\n" "${COMPREPLY[@]}"' bash "$@" | sort | tr '\n' ' '
+}
+holds 'commands complete' [ "$(complete_words glint r)" = 'run ' ]
+holds 'two-word commands complete' [ "$(complete_words glint brdf l)" = 'list ' ]
+holds 'options complete' [ "$(complete_words glint run --th)" = '--threads ' ]
+holds 'formats complete' [ "$(complete_words glint run --format c)" = 'csv ' ]
+holds 'help topics complete' [ "$(complete_words glint help ver)" = 'verify ' ]
+holds 'files complete' [ "$(complete_words glint run plate.t)" = 'plate.toml ' ]
+holds 'output files complete' [ "$(complete_words glint run -o brok)" = 'broken.toml ' ]
+
+# ------------------------------------------------- the table, as others read it
+
+python=
+for candidate in /usr/bin/python3 python3; do
+    if "$candidate" -c 'import astropy.table' 2>/dev/null; then
+        python=$candidate
+        break
+    fi
+done
+if [ -n "$python" ]; then
+    cat >read.py <<'END'
+import math, sys
+from astropy.table import Table
+table = Table.read(sys.argv[1], format="ascii.ecsv")
+assert len(table) == 3, table
+assert table["range_km"].unit == "km" and table["t_s"].unit == "s", table.info
+assert table["mag_V"].mask.tolist() == [False, False, True], table["mag_V"]
+assert math.isclose(table["flux_ratio_V"][0], 0.5 / math.pi * 1e-12, rel_tol=1e-12)
+assert table.meta["title"] == "A white plate", table.meta
+END
+    holds 'astropy reads the table' "$python" read.py table
+else
+    skip 'astropy reads the table' 'no astropy'
+fi
+
+# ------------------------------------------------------ the ready-made scenarios
+
+shopt -s nullglob
+for scenario in "$source"/scenarios/*.toml; do
+    t "scenario $(basename "$scenario") runs" 0 run "$scenario" -o scenario.csv
+    t "scenario $(basename "$scenario") is checked" 0 check "$scenario"
+done
+known=("$source"/scenarios/known/*.toml)
+[ ${#known[@]} = 0 ] || t 'known geometries come out as they should' 0 verify "${known[@]}"
+for file in $("$glint" --man | sed -n 's/^ *glint .* \(scenarios[^ ]*\.toml\).*/\1/p'); do
+    # shellcheck disable=SC2086 # a pattern is wanted
+    holds "the example's $file is there" compgen -G "$source/$file" >/dev/null
+done
+
+printf '%d checks, %d failed\n' "$checks" "$failures"
+[ "$failures" = 0 ]
