@@ -19,7 +19,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { TILES = 64, STEPS = TILES * BRDF_TILE };
+enum { TILES = 24, STEPS = TILES * BRDF_TILE }; /* a little more than one turn */
 enum { ROUNDS = 7 };
 static const double AT_LEAST_S = 0.03; /* of each measurement */
 static const double STEP_DEG = 0.5;    /* by which a body in coherent motion turns each step */

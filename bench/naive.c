@@ -19,14 +19,13 @@ double naive_lambert(const naive_facet *facets, int n, const naive_material *m, 
 double naive_ward(const naive_facet *facets, int n, const naive_material *m, const double i[3],
                   const double r[3])
 {
-    double sum = 0.0;
+    double sum = 0.0, h[3];
+    add3(i, r, h);
+    scale3(h, 1.0 / norm3(h), h);
     for (int j = 0; j < n; j++) {
         const naive_facet *facet = &facets[j];
         const double ci = dot3(i, facet->normal), cr = dot3(r, facet->normal);
         if (ci <= 0.0 || cr <= 0.0) continue;
-        double h[3];
-        add3(i, r, h);
-        unit3(h, h);
         const double x = dot3(h, facet->tangent) / m->alpha_x;
         const double y = dot3(h, facet->bitangent) / m->alpha_y;
         const double lobe = exp(-2.0 * (x * x + y * y) / (1.0 + dot3(h, facet->normal)));
@@ -40,13 +39,12 @@ double naive_ward(const naive_facet *facets, int n, const naive_material *m, con
 double naive_ward_gmd(const naive_facet *facets, int n, const naive_material *m, const double i[3],
                       const double r[3])
 {
-    double sum = 0.0;
+    double sum = 0.0, h[3];
+    add3(i, r, h);
     for (int j = 0; j < n; j++) {
         const naive_facet *facet = &facets[j];
         const double ci = dot3(i, facet->normal), cr = dot3(r, facet->normal);
         if (ci <= 0.0 || cr <= 0.0) continue;
-        double h[3];
-        add3(i, r, h);
         const double x = dot3(h, facet->tangent) / m->alpha_x;
         const double y = dot3(h, facet->bitangent) / m->alpha_y;
         const double z = dot3(h, facet->normal);

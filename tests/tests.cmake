@@ -9,6 +9,7 @@ glint_test(clock PkgConfig::ERFA)
 glint_test(frames PkgConfig::ERFA)
 glint_test(earth PkgConfig::ERFA)
 glint_test(eclipse)
+glint_test(moon)
 glint_test(kepler)
 glint_test(brdf)
 glint_test(brdf_properties)
@@ -25,6 +26,10 @@ add_test(NAME install COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/install/run.sh ${PROJE
 
 # The order in which the folders of src/ may include each other.
 add_test(NAME rooms COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_rooms.sh ${PROJECT_SOURCE_DIR})
+
+# Every scenario that ships.
+add_test(NAME scenarios COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_scenarios.sh
+    $<TARGET_FILE:glint_program> ${PROJECT_SOURCE_DIR}/scenarios)
 
 # The program from outside.
 add_test(NAME program COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_cli.sh $<TARGET_FILE:glint_program>

@@ -55,7 +55,7 @@ const brdf_model brdf_five_parameter = {
     .name = "five-parameter",
     .doc = "provisional: its published form could not be checked; microfacet lobe and a diffuse "
            "term k_d/ci that is not reciprocal",
-    .source = "after Wu, Xie, Xie and Deng 2002, Acta Optica Sinica 22(8) 897",
+    .source = "after Wu, Xie et al. 2002, Acta Optica Sinica 22(8) 897",
     .params = params,
     .n_params = sizeof params / sizeof params[0],
     .flags = BRDF_ISOTROPIC | BRDF_NOT_RECIPROCAL,

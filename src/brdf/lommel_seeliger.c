@@ -26,8 +26,8 @@ static inline double lommel_seeliger_lane(const double *coef, const brdf_lane *l
 const brdf_model brdf_lommel_seeliger = {
     .name = "lommel-seeliger",
     .doc = "dark dust that scatters light once and evenly",
-    .source = "Seeliger 1884, Vierteljahrsschrift der Astronomischen Gesellschaft 19, 202; Hapke "
-              "2012, Theory of Reflectance and Emittance Spectroscopy, section 8.5",
+    .source = "Lommel 1889, Annalen der Physik 36, 473; Hapke 2012, Theory of Reflectance and "
+              "Emittance Spectroscopy",
     .params = params,
     .n_params = sizeof params / sizeof params[0],
     .flags = BRDF_ISOTROPIC,

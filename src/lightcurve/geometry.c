@@ -132,6 +132,12 @@ static void light_components(const satellite *sat, const moment *m,
     }
 }
 
+/* Elevation of a unit vector in the site's frame, rad; precise at the zenith too. */
+static double elevation_of(const double enu[3])
+{
+    return atan2(enu[2], sqrt(enu[0] * enu[0] + enu[1] * enu[1]));
+}
+
 static void fill_site(const glint_scenario *s, const sighting *seen, int k, tile_geometry *out)
 {
     double itrs[3], enu[3], sun[3], distance_m;
@@ -140,12 +146,12 @@ static void fill_site(const glint_scenario *s, const sighting *seen, int k, tile
     const double azimuth = atan2(enu[0], enu[1]);
     const double turned = azimuth + TWO_PI; /* may round to a full turn: that is 0 */
     out->azimuth[k] = azimuth >= 0 ? azimuth : turned < TWO_PI ? turned : 0;
-    out->elevation[k] = atan2(enu[2], hypot(enu[0], enu[1]));
+    out->elevation[k] = elevation_of(enu);
     out->seen[k] = out->elevation[k] >= s->min_elevation;
     sun_from_point(&seen->frames, seen->site_gcrs_m, s->aberration, sun, &distance_m);
     mat_vec(seen->frames.itrs_gcrs, sun, itrs);
     mat_vec(s->site.enu_itrs, itrs, enu);
-    out->sun_elevation[k] = atan2(enu[2], hypot(enu[0], enu[1]));
+    out->sun_elevation[k] = elevation_of(enu);
 }
 
 /* One row of a run with an orbit. */

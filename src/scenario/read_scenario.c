@@ -98,6 +98,7 @@ static void check_last_year(reader *r, const run_clock *clock, double span_s)
 
 static void read_time(reading *rd, reader *root)
 {
+    enum { LAST_YEAR = 2100 };
     static const param_info STEP = {"step_s", "s", "time between rows", 0, 1e9, PARAM_REQUIRED,
                                     PARAM_MIN_OPEN};
     static const param_info DURATION = {"duration_s", "s", "length of the run", 0, 4.1e9, 0, 0};
@@ -127,7 +128,14 @@ static void read_time(reading *rd, reader *root)
                         -span_s);
     }
     if (r.status == GLINT_OK && has_start && (has_end || has_duration) && has_step) {
+        glint_utc last;
         run_clock_start(&start, span_s, s->dut1_s, &s->clock);
+        run_clock_utc(&s->clock, span_s, &last);
+        if (last.year > LAST_YEAR)
+            reader_fail(&r, reader_place(&r, "duration_s"),
+                        "the run ends in the year %d; expected an end up to %d, as far as the Sun's "
+                        "ephemeris holds",
+                        last.year, LAST_YEAR);
         count_steps(rd, &r, span_s);
         check_last_year(&r, &s->clock, span_s);
         if (s->clock.dubious)
@@ -249,6 +257,8 @@ static void read_extinction(reading *rd, reader *r)
         return;
     }
     reader table = reader_start(node, "extinction", rd->errors);
+    for (size_t k = 0; band_at(k); k++)
+        reader_has(&table, band_at(k)->name); /* bands that this run does not ask for may stand there */
     for (int b = 0; b < s->n_bands; b++) {
         const param_info k = {s->bands[b]->name, "mag per airmass", "", 0, 10, PARAM_REQUIRED, 0};
         reader_param(&table, &k, &s->extinction[b]);
