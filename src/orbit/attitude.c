@@ -6,7 +6,8 @@
 
 static const attitude_law *const laws[] = {&attitude_nadir,    &attitude_rsw,
                                            &attitude_point,    &attitude_sun_pointing,
-                                           &attitude_inertial, &attitude_spin};
+                                           &attitude_inertial, &attitude_spin,
+                                           &attitude_torque_free};
 enum { N_LAWS = sizeof laws / sizeof *laws };
 
 const attitude_law *attitude_law_at(size_t k)
@@ -60,10 +61,12 @@ static glint_status check_keys(const attitude_spec *spec, glint_errors *errors)
     for (int k = 0; k < spec->law->n_keys; k++) {
         const attitude_key *key = &spec->law->keys[k];
         const bool number = key->kind == ATTITUDE_NUMBER || key->kind == ATTITUDE_EPOCH;
+        const bool vector = key->kind == ATTITUDE_VECTOR;
         if (key->required && !spec->given[k])
             status = errors_add(errors, GLINT_INPUT, spec->where, "the law '%s' needs the key '%s'",
                                 spec->law->name, key->name);
-        else if (number && !isfinite(spec->value[k][0]))
+        else if ((number && !isfinite(spec->value[k][0])) ||
+                 (vector && !isfinite(norm3(spec->value[k]))))
             status = errors_add(errors, GLINT_INPUT, spec->key_place[k],
                                 "'%s' is not a finite number", key->name);
     }

@@ -5,9 +5,11 @@
 #define GLINT_ORBIT_ATTITUDE_H
 
 #include "orbit/direction.h"
+#include "orbit/torque_free.h"
 
 typedef enum attitude_key_kind {
     ATTITUDE_NUMBER,     /* value[0] */
+    ATTITUDE_VECTOR,     /* 3 numbers */
     ATTITUDE_AXIS,       /* body axis: 3 numbers, not all zero; made unit by the reader */
     ATTITUDE_DIRECTION,  /* of the vocabulary */
     ATTITUDE_QUATERNION, /* w, x, y, z; norm 1 within 1e-6, made unit by the reader */
@@ -42,6 +44,7 @@ typedef struct attitude {
     double matrix[9];        /* the law's own: body_gcrs (inertial), or the triad that the body axes
                               * span, as rows in body coordinates (point, spin) */
     double rate_rad_s;       /* right-handed about `axis` */
+    torque_free tumble;     /* torque-free */
     double phase_rad;        /* turned at the epoch */
     double epoch_s;          /* TT s from the start */
     double offset[9];        /* v_body = offset v_law; identity where none */

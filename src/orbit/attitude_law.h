@@ -9,6 +9,7 @@ extern const attitude_law attitude_nadir, attitude_rsw;          /* attitude_lvl
 extern const attitude_law attitude_point, attitude_sun_pointing; /* attitude_point.c */
 extern const attitude_law attitude_inertial;                     /* attitude_inertial.c */
 extern const attitude_law attitude_spin;                         /* attitude_spin.c */
+extern const attitude_law attitude_torque_free;                  /* attitude_torque_free.c */
 
 /* The right-handed triad of two directions, as rows: `first`, the part of `second` normal to it,
  * and their cross product. first, second: unit, in one frame. False where they are parallel within

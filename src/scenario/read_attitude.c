@@ -87,6 +87,7 @@ static void read_key(reading *rd, reader *r, attitude_spec *spec, int k)
     bool good = false;
     switch (key->kind) {
     case ATTITUDE_NUMBER: good = reader_param(r, &number, value); break;
+    case ATTITUDE_VECTOR: good = reader_vector(r, key->name, key->required, 3, value); break;
     case ATTITUDE_AXIS: good = reader_axis(r, key->name, key->required, value); break;
     case ATTITUDE_DIRECTION: good = read_direction(r, key->name, key->required, &spec->to[k]); break;
     case ATTITUDE_QUATERNION: good = read_quaternion(r, key, value); break;
@@ -121,7 +122,7 @@ static void read_offset(reader *r, attitude_spec *spec)
 /* Laws that are planned: their names are known, and refused by name. */
 static bool is_planned(const char *law)
 {
-    return string_equal(law, "torque-free") || string_equal(law, "table");
+    return string_equal(law, "table");
 }
 
 void read_attitude(reading *rd, reader *root)
@@ -173,11 +174,10 @@ static void read_drive(reading *rd, reader *r, hinge *out)
     out->rate_rad_s = rate_deg_s * DEG;
     out->drive = has_track ? HINGE_TRACK : has_rate ? HINGE_RATE : HINGE_FIXED;
     if (!has_track) {
-        reader_has(r, "face");
         if (reader_has(r, "face"))
             reader_fail(r, reader_place(r, "face"),
                         "'face' belongs to 'track', which is not given; expected both or neither");
-        if (!has_angle && !has_rate && !reader_has(r, "table"))
+        if (!reader_has(r, ANGLE.name) && !reader_has(r, RATE.name) && !toml_child(r->table, "table"))
             reader_fail(r, r->table->where,
                         "the hinge has no drive; expected one of angle_deg, rate_deg_s, track");
         return;
