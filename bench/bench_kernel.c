@@ -56,10 +56,10 @@ typedef struct scene {
     double *arrays;     /* owned; backs `facets` */
     naive_facet *plain; /* owned; the same facets */
     brdf_facets facets;
-    brdf_light *lights;                 /* owned; TILES */
-    double (*kernel)[BRDF_TILE];        /* owned; TILES; what it came to */
-    double (*naive)[BRDF_TILE];         /* owned; TILES */
-    double roof[BRDF_TILE];             /* kept so that the work cannot be left out */
+    brdf_light *lights;          /* owned; TILES */
+    double (*kernel)[BRDF_TILE]; /* owned; TILES; what it came to */
+    double (*naive)[BRDF_TILE];  /* owned; TILES */
+    double roof[BRDF_TILE];      /* kept so that the work cannot be left out */
 } scene;
 
 static void *allocate(size_t n, size_t size)
@@ -168,8 +168,7 @@ static void run_naive(void *data)
         const int k = step % BRDF_TILE;
         const double i[3] = {light->i[0][k], light->i[1][k], light->i[2][k]};
         const double r[3] = {light->r[0][k], light->r[1][k], light->r[2][k]};
-        s->naive[step / BRDF_TILE][k] =
-            s->model->naive(s->plain, s->n, &s->model->material, i, r);
+        s->naive[step / BRDF_TILE][k] = s->model->naive(s->plain, s->n, &s->model->material, i, r);
     }
 }
 
@@ -181,8 +180,8 @@ CLONES static void roof_tile(const brdf_facets *facets, const brdf_light *light,
     for (int f = 0; f < facets->n; f++) {
         const double a = facets->normal[0][f], b = facets->normal[1][f], c = facets->area[f];
         for (int k = 0; k < BRDF_TILE; k++)
-            total[k] += c * sqrt(light->hh[k] + a) *
-                        fast_exp((b - light->hlen[k]) / (light->hh[k] + c));
+            total[k] +=
+                c * sqrt(light->hh[k] + a) * fast_exp((b - light->hlen[k]) / (light->hh[k] + c));
     }
     for (int k = 0; k < BRDF_TILE; k++)
         sum[k] += total[k];

@@ -22,7 +22,7 @@ STEPS, STEP_DEG, PHASE_DEG = 24 * 32, 0.5, 60.0
 RHO_D, RHO_S, ALPHA_X, ALPHA_Y = 0.1, 0.3, 0.1, 0.2
 FACETS = (72, 1000, 10000, 100000)
 # Pairs of a facet and a step that are worked on together: arrays of them stay in the cache.
-BLOCK = 50_000
+BLOCK = 10_000
 ROUNDS = 5
 
 

@@ -29,8 +29,8 @@ double naive_ward(const naive_facet *facets, int n, const naive_material *m, con
         const double x = dot3(h, facet->tangent) / m->alpha_x;
         const double y = dot3(h, facet->bitangent) / m->alpha_y;
         const double lobe = exp(-2.0 * (x * x + y * y) / (1.0 + dot3(h, facet->normal)));
-        const double f = m->rho_d / PI +
-                         m->rho_s / (4.0 * PI * m->alpha_x * m->alpha_y * sqrt(ci * cr)) * lobe;
+        const double f =
+            m->rho_d / PI + m->rho_s / (4.0 * PI * m->alpha_x * m->alpha_y * sqrt(ci * cr)) * lobe;
         sum += f * ci * cr * facet->area_m2;
     }
     return sum;

@@ -1,5 +1,5 @@
-/* scenario_text.h: a folder of its own for every test, and small scenarios whose parts can be put in
- * place of each other. */
+/* scenario_text.h: a folder of its own for every test, and small scenarios whose parts can be put
+ * in place of each other. */
 #ifndef GLINT_SCENARIO_TEXT_H
 #define GLINT_SCENARIO_TEXT_H
 
@@ -14,14 +14,16 @@
 
 static char folder[256];
 
-/* "folder/name" in one of a few static buffers. */
+/* "folder/name" in a static buffer that stays: the same for the same name. */
 static inline const char *in_folder(const char *name)
 {
-    static char paths[4][512];
-    static int next;
-    char *path = paths[next++ % 4];
-    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
-    return path;
+    static char paths[64][1024];
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    int k = 0;
+    while (k < 63 && paths[k][0] && strcmp(paths[k], path) != 0)
+        k++;
+    return strcpy(paths[k], path);
 }
 
 /* Number of entries besides "." and "..". */
@@ -66,9 +68,9 @@ static inline const char *write_bytes(const char *name, const char *bytes, size_
     return path;
 }
 
-static inline const char *write_file(const char *name, const char *text)
+static inline const char *write_file(const char *name, const char *content)
 {
-    return write_bytes(name, text, strlen(text));
+    return write_bytes(name, content, strlen(content));
 }
 
 /* The bytes of a file, terminated, from malloc. */
@@ -155,12 +157,12 @@ static inline void take_mark(marked_text *m)
 
 /* The scenario `parts` with another text in place of one part. */
 static inline marked_text with_part(const char *const parts[N_PARTS], enum part part,
-                                    const char *text)
+                                    const char *replacement)
 {
     marked_text out = {.text = ""};
     size_t n = 0;
     for (int k = 0; k < N_PARTS; k++) {
-        const char *piece = k == (int)part ? text : parts[k] ? parts[k] : "";
+        const char *piece = k == (int)part ? replacement : parts[k] ? parts[k] : "";
         ck_assert_uint_lt(n + strlen(piece), sizeof out.text);
         strcpy(out.text + n, piece);
         n += strlen(piece);
@@ -206,9 +208,9 @@ static inline glint_scenario *read_sound(const char *path)
 
 /* Writes a scenario with one part replaced, and reads it; it must be right. */
 static inline glint_scenario *read_with(const char *const parts[N_PARTS], enum part part,
-                                        const char *text)
+                                        const char *replacement)
 {
-    const marked_text m = with_part(parts, part, text);
+    const marked_text m = with_part(parts, part, replacement);
     return read_sound(write_file("scenario.toml", m.text));
 }
 
@@ -233,7 +235,9 @@ static inline void assert_refused_set(const char *path, const char *const *set, 
 {
     glint_scenario *s = (glint_scenario *)folder; /* must be cleared */
     glint_errors *errors = glint_errors_new();
-    ck_assert_int_eq(glint_scenario_read(path, set, n_set, &s, errors), GLINT_INPUT);
+    const glint_status status = glint_scenario_read(path, set, n_set, &s, errors);
+    ck_assert_msg(status == GLINT_INPUT, "status %d; wanted '%s' and '%s' at %s:%d:%d", status,
+                  found ? found : "", expected ? expected : "", file, line, column);
     ck_assert_ptr_null(s);
     ck_assert_msg(has_error(errors, file, line, column, found, expected),
                   "wanted %s:%d:%d with '%s' and '%s'; got:%s", file, line, column,
@@ -261,5 +265,14 @@ static inline void assert_wrong(const char *const parts[N_PARTS], const wrong_te
 }
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
+
+static inline void assert_all_wrong(const char *const parts[N_PARTS], const wrong_text *all,
+                                    size_t n)
+{
+    for (size_t k = 0; k < n; k++)
+        assert_wrong(parts, &all[k]);
+}
+
+#define ASSERT_ALL_WRONG(parts, all) assert_all_wrong(parts, all, COUNT_OF(all))
 
 #endif

@@ -235,7 +235,134 @@ START_TEST(test_brdf_other_models_match_reference)
 }
 END_TEST
 
+/* A lobe of the binomial model; brdf_lobe_free ends it. */
+static brdf_lobe binomial_of(int rows, int n_b, const double *b, int n_c, const double *c, double d,
+                             double l1)
+{
+    brdf_lobe lobe = {.model = brdf_model_named("binomial"), .weight = 1.0};
+    lobe.params[2] = d;
+    lobe.params[3] = l1;
+    ck_assert(brdf_lobe_make_arrays(&lobe));
+    const int columns[2] = {n_b, n_c};
+    const double *const values[2] = {b, c};
+    for (int k = 0; k < 2; k++) {
+        const size_t n = (size_t)(rows * columns[k]);
+        lobe.arrays[k] = (brdf_array){rows, columns[k], malloc(n * sizeof(double))};
+        ck_assert_ptr_nonnull(lobe.arrays[k].values);
+        memcpy(lobe.arrays[k].values, values[k], n * sizeof(double));
+    }
+    glint_error error;
+    ck_assert_msg(brdf_lobe_prepare(&lobe, &error) == GLINT_OK, "%s", error.message);
+    return lobe;
+}
+
+/* The laboratory fits to flight materials (Fankhauser et al. 2023), and a form with V. */
+static brdf_lobe binomial_named(const char *name)
+{
+    static const double chassis_b[] = {3.34, -98.085}, array_b[] = {0.534, -20.409};
+    static const double chassis_c[] = {-999.999, 867.538,  1000,    1000,     -731.248,
+                                       618.552,  -294.054, 269.248, -144.853, 75.196};
+    static const double array_c[] = {-527.765, 1000, -676.579, 430.596, -175.806, 57.879};
+    static const double two_b[] = {0.5, -1.25, 0.75, 1.5, -0.5, 0.25},
+                        two_c[] = {-2, 1, 0.5, -0.25};
+    if (strcmp(name, "chassis") == 0) return binomial_of(1, 2, chassis_b, 10, chassis_c, 3, -5);
+    if (strcmp(name, "array") == 0) return binomial_of(1, 2, array_b, 6, array_c, 3, -3);
+    ck_assert_str_eq(name, "two_rows");
+    return binomial_of(2, 3, two_b, 2, two_c, 2, -1);
+}
+
+/* f (1/sr) of a lobe from four angles in deg. */
+static double lobe_f(const brdf_lobe *lobe, const double angles_deg[4])
+{
+    double i[3], r[3];
+    direction(angles_deg[0], angles_deg[1], i);
+    direction(angles_deg[2], angles_deg[3], r);
+    return lobe->model->eval(brdf_lobe_coef(lobe), i, r) / (i[2] * r[2]);
+}
+
+/* Terms of ln f up to 1e4 in size cancel to a few units: 1e-12 is left. */
+START_TEST(test_binomial_matches_reference)
+{
+    csv_table table = table_open(path_in(TEST_DATA_DIR, "brdf/binomial.csv"));
+    double worst = 0.0;
+    for (long row = 0; row < table.n_rows; row++) {
+        brdf_lobe lobe = binomial_named(table_text(&table, row, "case"));
+        double angles[4];
+        row_angles(&table, row, long_names, angles);
+        check_cell(&table, row, "f", lobe_f(&lobe, angles), 1e-11, &worst);
+        brdf_lobe_free(&lobe);
+    }
+    printf("binomial: worst relative error %.2g\n", worst);
+    csv_free(&table);
+}
+END_TEST
+
+/* Another program's values (lumos-sat 1.0.9), printed to 10 digits. */
+START_TEST(test_brdf_matches_values_of_another_program)
+{
+    static const char *const names[4] = {"theta_i", "phi_i", "theta_o", "phi_o"};
+    static const struct {
+        const char *column, *model;
+        double params[4];
+    } models[] = {
+        {"lambert_0.5", "lambert", {0.5}},
+        {"phong_0.34_0.40_8.9", "phong", {0.34, 0.40, 8.9}},
+        {"phong_0.15_0.25_0.26", "phong", {0.15, 0.25, 0.26}},
+        {"phong_0.53_0.28_7.31", "phong", {0.53, 0.28, 7.31}},
+        {"abg_0.01999_2.285e-6_2.264",
+         "abg",
+         {0, 0.019989862079564824, 2.2851243807209376e-06, 2.2640286229702555}},
+    };
+    const char *dir = reference_dir("values of another program");
+    if (!dir) return;
+    csv_table table = table_open(path_in(dir, "validation/starlink_v15/brdf_expected_lumos.csv"));
+    brdf_lobe chassis = binomial_named("chassis"), array = binomial_named("array");
+    double worst = 0.0;
+    for (long row = 0; row < table.n_rows; row++) {
+        double angles[4];
+        row_angles(&table, row, names, angles);
+        for (size_t k = 0; k < sizeof models / sizeof models[0]; k++)
+            check_cell(&table, row, models[k].column,
+                       f_of(models[k].model, models[k].params, angles), 1e-8, &worst);
+        check_cell(&table, row, "binomial_starlink_chassis", lobe_f(&chassis, angles), 1e-8,
+                   &worst);
+        check_cell(&table, row, "binomial_starlink_solar_array", lobe_f(&array, angles), 1e-8,
+                   &worst);
+    }
+    printf("another program's values: worst relative error %.2g\n", worst);
+    brdf_lobe_free(&chassis);
+    brdf_lobe_free(&array);
+    csv_free(&table);
+}
+END_TEST
+
 /* ------------------------------------------------------------- closed forms */
+
+/* One power of D and one logarithm: f = 10^(B0 + B1 D) (1 + d^l1 D^2)^(C/2). At 30 deg on the
+ * source's side D = 1. */
+START_TEST(test_binomial_single_terms)
+{
+    const double b[] = {-1, 0.5}, c[] = {-3}, angles[4] = {30, 0, 30, 0};
+    brdf_lobe lobe = binomial_of(1, 2, b, 1, c, 4, 2);
+    assert_rel(lobe_f(&lobe, angles), pow(10, -0.5) * pow(17, -1.5), 1e-14);
+    brdf_lobe_free(&lobe);
+}
+END_TEST
+
+START_TEST(test_binomial_refuses_shapes_that_do_not_match)
+{
+    const double b[] = {1, 2}, c[] = {3, 4};
+    brdf_lobe lobe = binomial_of(2, 1, b, 1, c, 3, 0);
+    glint_error error;
+    lobe.arrays[1].rows = 1;
+    ck_assert_int_eq(brdf_lobe_prepare(&lobe, &error), GLINT_INPUT);
+    ck_assert_ptr_nonnull(strstr(error.message, "B has 2 rows and C has 1"));
+    lobe.arrays[0].rows = lobe.arrays[1].rows = 17;
+    ck_assert_int_eq(brdf_lobe_prepare(&lobe, &error), GLINT_INPUT);
+    ck_assert_ptr_nonnull(strstr(error.message, "at most 16 rows of 64"));
+    brdf_lobe_free(&lobe);
+}
+END_TEST
 
 /* Dielectric at normal incidence: F = ((n-1)/(n+1))^2; conductor: ((n-1)^2+k^2)/((n+1)^2+k^2).
  * Cook-Torrance there: D = 1/(pi m^2), G = 1, g = s D F/4. */
@@ -402,6 +529,15 @@ START_TEST(test_material_same_compares_function_not_place)
     ck_assert(!brdf_material_same(&a, &weight));
     ck_assert(!brdf_material_same(&a, &parameter));
     ck_assert(!brdf_material_same(&a, &shorter));
+    brdf_lobe chassis = binomial_named("chassis"), again = binomial_named("chassis");
+    brdf_lobe array = binomial_named("array");
+    array.params[3] = chassis.params[3];
+    const brdf_material x = {1, &chassis}, y = {1, &again}, z = {1, &array};
+    ck_assert(brdf_material_same(&x, &y));
+    ck_assert(!brdf_material_same(&x, &z));
+    brdf_lobe_free(&chassis);
+    brdf_lobe_free(&again);
+    brdf_lobe_free(&array);
     brdf_material *const all[] = {&a, &b, &weight, &parameter, &shorter};
     for (int k = 0; k < 5; k++)
         brdf_material_free(all[k]);
@@ -423,6 +559,7 @@ START_TEST(test_brdf_public_table_lists_every_model)
             ck_assert(glint_brdf_parameter(k, (size_t)j, &param));
             ck_assert_ptr_eq(param.name, model->params[j].name);
             ck_assert(param.required == param_is_required(&model->params[j]));
+            ck_assert_int_eq(param.dimensions, model->params[j].flags & PARAM_ROWS ? 2 : 0);
         }
         ck_assert(!glint_brdf_parameter(k, (size_t)model->n_params, &param));
     }
@@ -463,6 +600,8 @@ int main(void)
     tcase_add_test(reference, test_ward_peaks_match_reference);
     tcase_add_test(reference, test_ward_peak_ratio_of_published_materials);
     tcase_add_test(reference, test_brdf_other_models_match_reference);
+    tcase_add_test(reference, test_binomial_matches_reference);
+    tcase_add_test(reference, test_brdf_matches_values_of_another_program);
     suite_add_tcase(suite, reference);
     TCase *closed = tcase_create("closed forms");
     tcase_add_test(closed, test_cook_torrance_normal_incidence_is_fresnel);
@@ -471,6 +610,8 @@ int main(void)
     tcase_add_test(closed, test_brdf_diffuse_limits_are_lambert);
     tcase_add_test(closed, test_hapke_single_scattering_limit);
     tcase_add_test(closed, test_abg_peak_and_unit_distance);
+    tcase_add_test(closed, test_binomial_single_terms);
+    tcase_add_test(closed, test_binomial_refuses_shapes_that_do_not_match);
     suite_add_tcase(suite, closed);
     TCase *face = tcase_create("parameters and table");
     tcase_add_test(face, test_ward_wavelength_factor_divides_slopes);

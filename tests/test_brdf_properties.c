@@ -2,12 +2,14 @@
  * that the model itself declares. */
 #include "base/constants.h"
 #include "base/vec.h"
-#include "brdf/brdf.h"
+#include "brdf/table.h"
 #include "testing.h"
 
 #include <stdint.h>
 
 /* ------------------------------------------------------------------ helpers */
+
+enum { COEF_ROOM = 512 };
 
 /* Uniform in 0..1, the same sequence on every machine (Knuth's MMIX generator). */
 static double next_random(uint64_t *state)
@@ -54,13 +56,76 @@ static void draw_params(const brdf_model *model, uint64_t *state, double params[
     }
 }
 
-/* Coefficients of a random material; draws again where the combination is refused. */
-static void draw_coef(const brdf_model *model, uint64_t *state, double coef[BRDF_MAX_COEF])
+static int array_count(const brdf_model *model)
 {
-    double params[BRDF_MAX_PARAMS];
+    int n = 0;
+    for (int j = 0; j < model->n_params; j++)
+        n += (model->params[j].flags & PARAM_ROWS) != 0;
+    return n;
+}
+
+/* Fills the arrays of a lobe, all of as many rows. Elements are drawn from the middle of their
+ * range, a ten thousandth of it, which keeps f among usable numbers; end: taken from the lower (-1)
+ * or upper (1) end of the range instead. */
+static void fill_arrays(brdf_lobe *lobe, uint64_t *state, int end)
+{
+    ck_assert(brdf_lobe_make_arrays(lobe));
+    const int rows = 1 + (int)(3 * next_random(state));
+    for (int j = 0; j < lobe->model->n_params; j++) {
+        const param_info *p = &lobe->model->params[j];
+        if (!(p->flags & PARAM_ROWS)) continue;
+        brdf_array *array = &lobe->arrays[j];
+        array->rows = rows;
+        array->columns = 1 + (int)(6 * next_random(state));
+        const int n = array->rows * array->columns;
+        array->values = malloc((size_t)n * sizeof(double));
+        ck_assert_ptr_nonnull(array->values);
+        for (int k = 0; k < n; k++) {
+            const double middle = 0.5 * (p->min + p->max), half = 0.5 * (p->max - p->min);
+            array->values[k] =
+                middle + half * (end ? end : 1e-4 * (2.0 * next_random(state) - 1.0));
+        }
+    }
+}
+
+/* Makes the lobe a table of three scans with drawn values, five decades apart at most. */
+static void fill_table(brdf_lobe *lobe, uint64_t *state)
+{
+    enum { SCANS = 3, EACH = 7 };
+    measured_point points[SCANS * EACH];
+    for (int k = 0; k < SCANS * EACH; k++) {
+        const double theta_i = (10 + 30 * (k / EACH)) * DEG, theta_r = (25 * (k % EACH) - 75) * DEG;
+        points[k] = (measured_point){.i = {-sin(theta_i), 0, cos(theta_i)},
+                                     .r = {sin(theta_r), 0, cos(theta_r)},
+                                     .f = pow(10, 5 * next_random(state) - 3)};
+    }
+    const measured rows = {.points = points, .n = SCANS * EACH, .in_plane = true};
+    ck_assert_int_eq(table_prepare(&rows, lobe, NULL), GLINT_OK);
+}
+
+/* The numbers of a lobe with these parameters, and arrays drawn; false where they are refused. */
+static bool make_coef(const brdf_model *model, const double *params, int end, uint64_t *state,
+                      double coef[COEF_ROOM])
+{
+    brdf_lobe lobe = {.model = model, .weight = 1.0};
+    memcpy(lobe.params, params, sizeof lobe.params);
+    if (array_count(model) > 0) fill_arrays(&lobe, state, end);
+    if (model->flags & BRDF_MEASURED) fill_table(&lobe, state);
+    const bool good = brdf_lobe_prepare(&lobe, NULL) == GLINT_OK;
+    const size_t n = lobe.numbers ? lobe.n_numbers : BRDF_MAX_COEF;
+    ck_assert_uint_le(n, COEF_ROOM);
+    if (good) memcpy(coef, brdf_lobe_coef(&lobe), n * sizeof *coef);
+    brdf_lobe_free(&lobe);
+    return good;
+}
+
+/* Coefficients of a random material; draws again where the combination is refused. */
+static void draw_coef(const brdf_model *model, uint64_t *state, double coef[COEF_ROOM])
+{
+    double params[BRDF_MAX_PARAMS] = {0};
     for (int attempt = 0; attempt < 100; attempt++) {
         draw_params(model, state, params);
-        if (model->prepare(params, coef, NULL) == GLINT_OK) return;
+        if (make_coef(model, params, 0, state, coef)) return;
     }
     ck_abort_msg("%s: no usable parameters found", model->name);
 }
@@ -140,7 +205,7 @@ START_TEST(test_brdf_is_finite_and_not_negative_everywhere)
 {
     const brdf_model *model = brdf_model_at((size_t)_i);
     uint64_t state = seed_of(_i, 1);
-    double coef[BRDF_MAX_COEF], i[3], r[3];
+    double coef[COEF_ROOM], i[3], r[3];
     for (int draw = 0; draw < 100; draw++) {
         draw_coef(model, &state, coef);
         for_awkward_pairs(model, coef, check_finite);
@@ -164,16 +229,19 @@ static double range_end(const param_info *p, bool upper)
 START_TEST(test_brdf_is_finite_at_the_ends_of_its_ranges)
 {
     const brdf_model *model = brdf_model_at((size_t)_i);
-    double params[BRDF_MAX_PARAMS], coef[BRDF_MAX_COEF];
+    double params[BRDF_MAX_PARAMS] = {0}, coef[COEF_ROOM];
+    uint64_t state = seed_of(_i, 11);
     int usable = 0;
     for (unsigned corner = 0; corner < 1u << model->n_params; corner++) {
+        int end = 0;
         for (int j = 0; j < model->n_params; j++) {
             const param_info *p = &model->params[j];
             const bool upper = corner >> j & 1u;
             params[j] = range_end(p, upper);
             if (p->flags & PARAM_OPTIONAL) params[j] = upper ? 1.0 : PARAM_NONE;
+            if (p->flags & PARAM_ROWS) end = upper ? 1 : -1;
         }
-        if (model->prepare(params, coef, NULL) != GLINT_OK) continue;
+        if (!make_coef(model, params, end, &state, coef)) continue;
         for_awkward_pairs(model, coef, check_finite);
         usable++;
     }
@@ -186,7 +254,7 @@ START_TEST(test_brdf_is_zero_below_the_horizon)
     const brdf_model *model = brdf_model_at((size_t)_i);
     static const double below[] = {-1, -0.5, -1e-9, -0.0, 0.0, 1e-13, BRDF_EDGE};
     uint64_t state = seed_of(_i, 2);
-    double coef[BRDF_MAX_COEF], up[3];
+    double coef[COEF_ROOM], up[3];
     draw_coef(model, &state, coef);
     for (size_t k = 0; k < sizeof below / sizeof below[0]; k++) {
         const double c = below[k], down[3] = {sqrt((1 - c) * (1 + c)), 0, c};
@@ -212,7 +280,7 @@ START_TEST(test_brdf_is_reciprocal_unless_flagged)
     const brdf_model *model = brdf_model_at((size_t)_i);
     const bool reciprocal = !(model->flags & BRDF_NOT_RECIPROCAL);
     uint64_t state = seed_of(_i, 3);
-    double coef[BRDF_MAX_COEF], i[3], r[3], largest = 0.0;
+    double coef[COEF_ROOM], i[3], r[3], largest = 0.0;
     for (int draw = 0; draw < 100; draw++) {
         draw_coef(model, &state, coef);
         if (reciprocal) for_awkward_pairs(model, coef, check_reciprocal);
@@ -235,7 +303,7 @@ START_TEST(test_brdf_turn_about_normal_shows_isotropy)
     const brdf_model *model = brdf_model_at((size_t)_i);
     const bool isotropic = model->flags & BRDF_ISOTROPIC;
     uint64_t state = seed_of(_i, 4);
-    double coef[BRDF_MAX_COEF], i[3], r[3], turn[9], largest = 0.0;
+    double coef[COEF_ROOM], i[3], r[3], turn[9], largest = 0.0;
     const double normal[3] = {0, 0, 1};
     for (int draw = 0; draw < 100; draw++) {
         draw_coef(model, &state, coef);
@@ -372,7 +440,7 @@ static double kernel_difference(const brdf_model *model, uint64_t *state,
                                 void (*make_facets)(facet_set *, uint64_t *))
 {
     static double visible[N_FACETS * BRDF_TILE];
-    double coef[BRDF_MAX_COEF], worst = 0.0;
+    double coef[COEF_ROOM], worst = 0.0;
     facet_set set;
     brdf_light light;
     for (int draw = 0; draw < 60; draw++) {
@@ -423,7 +491,7 @@ START_TEST(test_brdf_tile_is_the_same_in_a_turned_frame)
 {
     const brdf_model *model = brdf_model_at((size_t)_i);
     uint64_t state = seed_of(_i, 7);
-    double coef[BRDF_MAX_COEF], axis[3], turn[9], sum[BRDF_TILE] = {0}, turned[BRDF_TILE] = {0};
+    double coef[COEF_ROOM], axis[3], turn[9], sum[BRDF_TILE] = {0}, turned[BRDF_TILE] = {0};
     facet_set set, set_turned;
     brdf_light light, light_turned;
     draw_coef(model, &state, coef);
@@ -461,7 +529,7 @@ START_TEST(test_brdf_tile_is_linear_and_adds)
     const brdf_model *model = brdf_model_at((size_t)_i);
     uint64_t state = seed_of(_i, 8);
     static double half[N_FACETS * BRDF_TILE];
-    double coef[BRDF_MAX_COEF], sum[4][BRDF_TILE] = {{0}}, twice[BRDF_TILE] = {0};
+    double coef[COEF_ROOM], sum[4][BRDF_TILE] = {{0}}, twice[BRDF_TILE] = {0};
     facet_set set;
     brdf_light light;
     draw_coef(model, &state, coef);
@@ -495,7 +563,7 @@ START_TEST(test_brdf_tile_lanes_are_independent)
 {
     const brdf_model *model = brdf_model_at((size_t)_i);
     uint64_t state = seed_of(_i, 9);
-    double coef[BRDF_MAX_COEF], alone[BRDF_TILE] = {0}, mixed[BRDF_TILE] = {0};
+    double coef[COEF_ROOM], alone[BRDF_TILE] = {0}, mixed[BRDF_TILE] = {0};
     facet_set set;
     brdf_light light, other;
     draw_coef(model, &state, coef);
@@ -522,7 +590,7 @@ START_TEST(test_brdf_tile_of_nothing_lit_adds_nothing)
 {
     const brdf_model *model = brdf_model_at((size_t)_i);
     uint64_t state = seed_of(_i, 10);
-    double coef[BRDF_MAX_COEF], sum[BRDF_TILE];
+    double coef[COEF_ROOM], sum[BRDF_TILE];
     facet_set set;
     brdf_light light;
     draw_coef(model, &state, coef);

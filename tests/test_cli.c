@@ -1,10 +1,9 @@
-/* test_cli.c: the parts of the program that need no scenario: options, suggestions, durations. The
+/* test_cli.c: the parts of the program that need no scenario: options, durations. The
  * program as a whole is tested by test_cli.sh. */
 #include "testing.h"
 
 #include "cli/command.h"
 #include "cli/report.h"
-#include "cli/suggest.h"
 
 static const char *const formats[] = {"csv", "json", NULL};
 enum { ALL = (1u << OPTION_COUNT) - 1 };
@@ -100,7 +99,7 @@ START_TEST(test_options_refuse_what_they_do_not_know)
         {{"--threads", ""}, "whole number"},
         {{"--threads", "99999999999999999999"}, "whole number"},
         {{"--format", "xml"}, "csv, json"},
-        {{"--plot", "f"}, "'--plot' is not built yet"},
+        {{"--swap", "a=b"}, "'--swap' is not built yet"},
         {{"--=x"}, "unknown option '--'"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -143,25 +142,6 @@ START_TEST(test_command_find_takes_one_word_or_two)
 }
 END_TEST
 
-START_TEST(test_suggest_finds_slips_and_no_more)
-{
-    static const char *const names[] = {"run", "check", "verify", "brdf list", "quiet"};
-    static const struct {
-        const char *wanted, *found;
-    } cases[] = {{"rnu", "run"},     {"chek", "check"},
-                 {"cehck", "check"}, {"verfiy", "verify"},
-                 {"quite", "quiet"}, {"x", NULL},
-                 {"", NULL},         {"ephemeris", NULL},
-                 {"checkout", NULL}, {"brdflist", "brdf list"}};
-    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        const char *found = suggest(cases[k].wanted, names, 5);
-        ck_assert_msg(found == cases[k].found ||
-                          (found && cases[k].found && strcmp(found, cases[k].found) == 0),
-                      "'%s' gave %s", cases[k].wanted, found ? found : "nothing");
-    }
-}
-END_TEST
-
 START_TEST(test_duration_uses_its_two_largest_units)
 {
     static const struct {
@@ -199,7 +179,6 @@ int main(void)
     tcase_add_test(all, test_options_refuse_what_they_do_not_know);
     tcase_add_test(all, test_options_know_only_those_of_the_command);
     tcase_add_test(all, test_command_find_takes_one_word_or_two);
-    tcase_add_test(all, test_suggest_finds_slips_and_no_more);
     tcase_add_test(all, test_duration_uses_its_two_largest_units);
     suite_add_tcase(suite, all);
     return run_suite(suite);

@@ -2,12 +2,16 @@
 # The program from outside: help, exit statuses, messages, output files, pipes and terminals.
 # usage: test_cli.sh PROGRAM SOURCE_DIR VERSION
 set -u
-glint=$(readlink -f "$1") source=$2 version=$3
+glint=$(readlink -f "$1") source=$(readlink -f "$2") version=$3
 export LC_ALL=C.UTF-8
 unset NO_COLOR
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 cd "$place" || exit 1
+[ -x "$glint" ] || {
+    echo "no program: $1"
+    exit 1
+}
 out=$place/out err=$place/err
 checks=0 failures=0 name=
 
@@ -58,6 +62,8 @@ holds() {
     checks=$((checks + 1))
     "$@" || fail "not so: $*"
 }
+
+matches() { compgen -G "$1" >/dev/null; }
 
 # ------------------------------------------------------------------- inputs
 
@@ -114,15 +120,15 @@ empty "$out"
 has "$err" 'usage: glint COMMAND'
 t 'help' 0 --help
 empty "$err"
-has "$out" 'run SCENARIO' 'check FILE...' 'verify FILE...' 'brdf list' '--version' 'exit status' example
-lacks "$out" passes shares compare ephemeris view sweep 'brdf show' 'brdf fit' plot
+has "$out" 'run SCENARIO' 'check FILE...' 'verify FILE...' 'passes SCENARIO...' 'ephemeris SCENARIO' 'brdf list' 'brdf fit DATA' '--version' 'exit status' example
+lacks "$out" shares compare view sweep --swap
 cp "$out" help
 for words in help -h 'help --help'; do
     # shellcheck disable=SC2086 # words are wanted
     t "help by '$words'" 0 $words
     holds 'the same help' cmp -s help "$out"
 done
-for command in run check verify 'brdf list'; do
+for command in run check verify passes ephemeris 'brdf list' 'brdf show' 'brdf fit'; do
     # shellcheck disable=SC2086
     t "help of $command" 0 $command --help
     empty "$err"
@@ -149,20 +155,20 @@ t 'a slip in a command' 2 rum plate.toml
 empty "$out"
 has "$err" "glint: error: unknown command 'rum'; did you mean 'run'?"
 t 'another word for a command' 2 xyzzy
-has "$err" "unknown command 'xyzzy'; this version has: run, check, verify, brdf list"
-for command in shares compare passes ephemeris view sweep 'brdf show' 'brdf fit'; do
+has "$err" "unknown command 'xyzzy'; this version has: run, check, verify, passes, ephemeris, brdf list, brdf show, brdf fit"
+for command in shares compare view sweep; do
     # shellcheck disable=SC2086
     t "$command is not built yet" 2 $command plate.toml
     empty "$out"
-    has "$err" "'$command' is not built yet; this version has: run, check, verify, brdf list"
+    has "$err" "'$command' is not built yet; this version has: run, check, verify, passes, ephemeris, brdf list, brdf show, brdf fit"
 done
-t 'help of a command that is not built' 2 help passes
+t 'help of a command that is not built' 2 help shares
 t 'half a command' 2 brdf
-has "$err" "needs one more word: list"
+has "$err" "needs one more word: list, show, fit"
 t 'a group without such a member' 2 brdf lst
-has "$err" "has no 'lst'; it has: list"
-t 'an option that is not built' 2 run plate.toml --plot x.png
-has "$err" "'--plot' is not built yet; this command has: --output"
+has "$err" "has no 'lst'; it has: list, show, fit"
+t 'an option that is not built' 2 run plate.toml --swap A=B
+has "$err" "'--swap' is not built yet; this command has: --output"
 t 'a slip in an option' 2 run plate.toml --quite
 has "$err" "did you mean '--quiet'?" "'glint run --help' says more"
 t 'an unknown letter' 2 run plate.toml -x
@@ -247,7 +253,7 @@ holds 'a device stays a device' [ -c /dev/null ]
 t 'a device that is full' 3 run plate.toml -o /dev/full
 lines "$err" 1
 mkfifo fifo
-cat fifo >from-fifo &
+timeout 60 cat fifo >from-fifo &
 t 'a named pipe' 0 run plate.toml -o fifo
 wait $!
 holds 'the same table' cmp -s table from-fifo
@@ -325,6 +331,129 @@ empty "$err"
 has "$out" 'lambert: ' 'ward: ' 'ward-gmd: ' 'source: ' alpha_x required
 lacks "$out" nan inf
 
+# Two materials; the peak of ward at normal incidence is (rho_d + rho_s/(4 alpha^2)) / pi.
+cat >materials.toml <<'END'
+[materials.white]
+brdf = "lambert"
+rho = 0.5
+[materials.lobe]
+brdf = "ward"
+rho_d = 0.1
+rho_s = 0.4
+alpha_x = 0.1
+alpha_y = 0.1
+[materials.lobe.bands.V]
+rho_s = 0.2
+END
+t 'curves of all materials of a file' 0 brdf show materials.toml
+has "$out" '# %ECSV' \
+    'material,theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,signed_theta_r_deg,f_per_sr,g_per_sr' \
+    'white,75,0,89.5,180,89.5,0.159154943' 'lobe,0,0,0,180,0,3.2149298' \
+    'lobe: ward rho_d=0.1 rho_s=0.4 alpha_x=0.1 alpha_y=0.1'
+has "$err" 'peaks     0 deg: white 0.15915 per sr at 0.00 deg; lobe 3.2149 per sr at 0.00 deg, ratio 20.2000'
+lines "$err" 6
+holds '2 materials, 6 angles, 359 directions' [ "$(grep -c '^white,\|^lobe,' "$out")" = 4308 ]
+cp "$out" curves
+t 'the same in two words' 0 brdf show -q materials.toml:white materials.toml:lobe
+empty "$err"
+holds 'the same table' cmp -s curves "$out"
+t 'the same in a file' 0 brdf show -q materials.toml -o curves.csv
+empty "$out"
+holds 'the same table' cmp -s curves curves.csv
+t 'one material in a band' 0 brdf show materials.toml:lobe --band V --incidence 0 --step 45
+has "$out" ', in band V' 'lobe,0,0,45,0,-45' 'lobe,0,0,0,180,0,1.623380'
+holds 'three directions' [ "$(grep -c '^lobe,' "$out")" = 3 ]
+t 'a map' 0 brdf show materials.toml:lobe --hemisphere 30 --step 10 --azimuth -20
+holds 'the normal and eight rings' [ "$(grep -c '^lobe,' "$out")" = $((1 + 8 * 36)) ]
+has "$out" 'lobe,30,-20,30,160,' 'theta_r_deg,phi_r_deg,f_per_sr,g_per_sr'
+empty "$err"
+printf '%s\n' phi_i_deg,theta_i_deg,phi_r_deg,theta_r_deg 0,0,0,45 0,0,0,90 >angles.csv
+t 'values at given angles' 0 brdf show materials.toml:white --geometry angles.csv
+has "$out" 'white,0,0,45,0,0.159154943' 'white,0,0,90,0,0,0'
+t 'reflectances' 0 brdf show materials.toml:white --dhr --incidence 0,60
+has "$out" 'material,theta_i_deg,phi_i_deg,dhr,dhr_error' white,60,0,0.5
+printf '%s\n' phi_i_deg,theta_i_deg,phi_r_deg,theta_r_deg 0,0,0,x 0,99,0,45 >wrong.csv
+t 'wrong angles, with places' 1 brdf show materials.toml --geometry wrong.csv
+has "$err" wrong.csv:2:7: wrong.csv:3:3:
+t 'a material that is not there' 1 brdf show materials.toml:withe
+empty "$out"
+has "$err" "materials.toml: error: there is no material 'withe' (did you mean 'white'?)"
+t 'all that is wrong' 1 brdf show absent.toml:a materials.toml:b broken.toml
+has "$err" absent.toml "'b'" broken.toml
+t 'a file without materials' 1 brdf show angles.csv
+cp materials.toml a:b.toml
+t 'a file with a colon' 0 brdf show a:b.toml
+t 'a material of a file with a colon' 0 brdf show a:b.toml:lobe
+t 'two of the same name' 0 brdf show a:b.toml:lobe materials.toml:lobe --incidence 0 --step 45
+has "$out" a:b.toml:lobe,0,0, materials.toml:lobe,0,0,
+t 'no material' 2 brdf show
+t 'a band that is none' 2 brdf show materials.toml --band W
+has "$err" "'W' is not a band"
+for words in '--incidence 90' '--incidence 1,,2' '--incidence nan' '--incidence 0x10' '--incidence=' \
+    '--hemisphere -1' '--step 0' '--step 46' '--azimuth 400' '--azimuth 1,2'; do
+    # shellcheck disable=SC2086
+    t "angles that cannot be: $words" 2 brdf show materials.toml $words
+    empty "$out"
+done
+for words in '--incidence 0 --hemisphere 0' '--geometry angles.csv --dhr' '--dhr --step 1' \
+    '--geometry angles.csv --azimuth 1' '--hemisphere 0 --geometry angles.csv'; do
+    # shellcheck disable=SC2086
+    t "ways to show that exclude each other: $words" 2 brdf show materials.toml $words
+done
+t 'a map too fine' 2 brdf show materials.toml --hemisphere 0 --step 0.1
+has "$err" 'the step is 0.1 deg'
+t 'curves in a folder that is not there' 3 brdf show materials.toml -o no/such/file.csv
+for words in 'run plate.toml' 'brdf show materials.toml'; do
+    # shellcheck disable=SC2086
+    t "$words with a picture of another kind" 2 $words --plot picture.jpg
+    has "$err" 'picture.jpg' '.svg, .png or .pdf'
+    empty "$out"
+    name="$words with a picture, without gnuplot" checks=$((checks + 1)) got=0
+    # shellcheck disable=SC2086
+    PATH=/no/such/folder "$glint" $words --plot picture.png >"$out" 2>"$err" || got=$?
+    [ "$got" = 3 ] || fail "exit status $got, expected 3"
+    has "$err" 'gnuplot' 'apt-get install gnuplot-nox'
+    lines "$err" 1
+    empty "$out"
+done
+
+# A Lambert surface of reflectance 0.2 and a lobe, at one incidence; the truth is among the models.
+{
+    echo 'theta_i,theta_r,f'
+    awk 'BEGIN { for (r = -80; r <= 80; r += 2) {
+        d = sin(r * 0.017453292519943295) - 0.5
+        printf "30,%d,%.17g\n", r, 0.2 / 3.141592653589793 + 0.01 / (1e-3 + d * d) } }'
+} >measured.csv
+fit=(brdf fit measured.csv --signed-zenith --model 'lambert,lambert+abg')
+t 'fits' 0 "${fit[@]}"
+empty "$err"
+has "$out" '# rank' 'lambert+abg: rms' '[materials.measured]' '[materials.measured-2]' 'g = 2'
+lacks "$out" nan inf
+cp "$out" fits
+t 'fits in a file' 0 "${fit[@]}" -o fits.toml
+holds 'the same materials' cmp -s fits fits.toml
+has "$out" 'lambert+abg: rms' '+-'
+lacks "$out" '[materials'
+t 'fits in a folder that is not there' 3 "${fit[@]}" -o no/such/fits.toml
+t 'fits by number of columns' 0 brdf fit measured.csv --columns theta_i=1,theta_r=2,f=3 \
+    --signed-zenith --model 'lambert,lambert+abg'
+holds 'the same fits' cmp -s fits "$out"
+t 'fits nearer to the normal' 0 "${fit[@]}" --max-zenith 60
+has "$out" '81 measurements, 61 fitted; left out: 20 more than 60 deg from the normal'
+t 'fits above a floor' 0 "${fit[@]}" --floor 0.08
+has "$out" 'without light'
+t 'a fit of nothing' 2 brdf fit measured.csv
+has "$err" 'expected --model'
+t 'a fit of a slip' 2 brdf fit measured.csv --signed-zenith --model wrad
+has "$err" "there is no BRDF 'wrad'; did you mean 'ward'?"
+t 'a fit in gradians' 2 "${fit[@]}" --angles grad
+has "$err" "--angles has 'grad'; expected deg or rad"
+t 'a fit beyond the horizon' 2 "${fit[@]}" --max-zenith 95
+t 'a fit to an absent file' 1 brdf fit absent.csv --model ward
+t 'a fit to unsigned angles' 1 brdf fit measured.csv --model ward
+has "$err" 'measured.csv:2:4:'
+t 'a picture of another kind' 2 "${fit[@]}" --plot fits.gif
+
 # ---------------------------------------------------------------- terminals
 
 if script -qec true /dev/null >/dev/null 2>&1; then
@@ -342,15 +471,15 @@ if script -qec true /dev/null >/dev/null 2>&1; then
     TERM=xterm script -qec "'$glint' run long.toml" /dev/null >"$out" </dev/null
     lacks "$out" '#####'
 else
-    skip 'terminals' 'no program script'
+    skip 'terminals' 'script (of bsdutils) gets no terminal here'
 fi
 
 # --------------------------------------------------------- manual, completion
 
 t 'the manual' 0 --man
 empty "$err"
-has "$out" '.TH GLINT 1' '.SH EXIT STATUS' '.SS glint run SCENARIO' '\-\-set'
-lacks "$out" passes
+has "$out" '.TH GLINT 1' '.SH EXIT STATUS' '.SS glint run SCENARIO' '\-\-set' 'glint passes'
+lacks "$out" sweep
 if command -v groff >/dev/null; then
     holds 'the manual has no roff errors' [ -z "$(groff -man -Tutf8 -ww "$out" 2>&1 >/dev/null)" ]
 else
@@ -373,6 +502,8 @@ holds 'formats complete' [ "$(complete_words glint run --format c)" = 'csv ' ]
 holds 'help topics complete' [ "$(complete_words glint help ver)" = 'verify ' ]
 holds 'files complete' [ "$(complete_words glint run plate.t)" = 'plate.toml ' ]
 holds 'output files complete' [ "$(complete_words glint run -o brok)" = 'broken.toml ' ]
+holds 'picture files complete' [ "$(complete_words glint run --plot brok)" = 'broken.toml ' ]
+holds 'angles do not complete' [ "$(complete_words glint brdf show --incidence '')" = ' ' ]
 
 # ------------------------------------------------- the table, as others read it
 
@@ -399,19 +530,12 @@ else
     skip 'astropy reads the table' 'no astropy'
 fi
 
-# ------------------------------------------------------ the ready-made scenarios
+# ---------------------------------------------- what ships, as the help names it
 
-shopt -s nullglob
-for scenario in "$source"/scenarios/*.toml; do
-    t "scenario $(basename "$scenario") runs" 0 run "$scenario" -o scenario.csv
-    t "scenario $(basename "$scenario") is checked" 0 check "$scenario"
-done
-known=("$source"/scenarios/known/*.toml)
-[ ${#known[@]} = 0 ] || t 'known geometries come out as they should' 0 verify "${known[@]}"
-for file in $("$glint" --man | sed -n 's/^ *glint .* \(scenarios[^ ]*\.toml\).*/\1/p'); do
-    # shellcheck disable=SC2086 # a pattern is wanted
-    holds "the example's $file is there" compgen -G "$source/$file" >/dev/null
-done
+while read -r file; do
+    holds "the example's $file is there" matches "$source/$file"
+done < <("$glint" --man | sed -n 's/\\-/-/g; s/^ *glint .* \(scenarios[^ ]*\.toml\).*/\1/p')
+t 'known geometries come out as they should' 0 verify "$source"/scenarios/known/*.toml
 
 printf '%d checks, %d failed\n' "$checks" "$failures"
 [ "$failures" = 0 ]

@@ -73,7 +73,7 @@ START_TEST(test_primitive_table_names_each_kind_once)
         }
         ck_assert_int_eq(primitive_key_index(kind, "colour"), -1);
     }
-    ck_assert_uint_eq(n, 5);
+    ck_assert_uint_eq(n, 12);
     ck_assert_ptr_null(primitive_kind_named("teapot"));
     ck_assert_ptr_null(primitive_kind_at(1000));
 }

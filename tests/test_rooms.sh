@@ -14,8 +14,9 @@ declare -A rooms=(
     [output]='base output'
     [cli]='cli'
 )
-# Which folder's C++ files face which library; ERFA is C.
-declare -A libraries=([erfa]='orbit' [GeographicLib]='orbit' [toml++]='scenario')
+# Which folder's C++ files face which library; ERFA and cminpack are C.
+declare -A libraries=([erfa]='orbit' [GeographicLib]='orbit' [toml++]='scenario'
+    [cminpack]='brdf')
 
 wrong() {
     printf '%s: %s\n' "$1" "$2"
@@ -37,7 +38,7 @@ check_include() {
             "$library"/* | "$library".h | "$library"m.h)
                 [ "${libraries[$library]}" = "$room" ] ||
                     wrong "$file" "$name belongs to ${libraries[$library]}, not to $room"
-                [ "$library" = erfa ] || [ "${file##*.}" = cpp ] ||
+                [[ $library =~ ^(erfa|cminpack)$ ]] || [ "${file##*.}" = cpp ] ||
                     wrong "$file" "only a .cpp file may include $name"
                 return
                 ;;
@@ -105,6 +106,7 @@ src/orbit/a.c <facets/model.h>
 src/orbit/a.c "base/absent.h"
 src/orbit/a.c "model.h"
 src/facets/a.c <erfa.h>
+src/orbit/a.c <cminpack.h>
 src/lightcurve/a.cpp <toml++/toml.h>
 src/orbit/a.c <GeographicLib/Geocentric.hpp>
 src/base/a.c <vector>

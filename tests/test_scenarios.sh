@@ -30,5 +30,25 @@ done
 for file in "$dir"/models/*.toml; do
     "$glint" check "$file" >/dev/null || fail "glint check models/${file##*/}"
 done
+# A file of materials says of each where it comes from and what its standing is, and none of them makes
+# light.
+for file in "$dir"/materials/*.toml; do
+    name=materials/${file##*/}
+    said=$("$glint" check "$file" 2>&1 >/dev/null) || fail "glint check $name"
+    ! grep -q 'more than it gets' <<<"$said" || fail "$name: $said"
+    n=$(grep -c '^\[materials\.' "$file")
+    [ "$(grep -c '^source = ".' "$file")" = "$n" ] || fail "$name: a material has no source"
+    [ "$(grep -c '^status = ".' "$file")" = "$n" ] || fail "$name: a material has no status"
+done
+# A material can be set wherever its file is; one that no file has cannot.
+plain=$("$glint" run "$dir/iss-vienna.toml" --quiet | sed -n '/^#/!p' | cksum)
+for key in materials.mli.rho_d materials.white-paint.rho; do
+    "$glint" run "$dir/iss-vienna.toml" --quiet --set "$key=0.3" >/dev/null || fail "--set $key"
+done
+changed=$("$glint" run "$dir/iss-vienna.toml" --quiet --set materials.mli.rho_d=0.3 |
+    sed -n '/^#/!p' | cksum)
+[ "$plain" != "$changed" ] || fail "--set materials.mli.rho_d changes nothing"
+! "$glint" run "$dir/iss-vienna.toml" --quiet --set materials.nil.rho=0.3 >/dev/null 2>&1 ||
+    fail "--set of a material that is not there"
 echo "${#files[@]} scenarios"
 exit $failed

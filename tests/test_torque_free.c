@@ -37,7 +37,7 @@ static void check_tumble(const char *path)
     for (long row = 0; row < table.n_rows; row++) {
         double inertia[3], w0[3], q[4], body0[9], got[9], want[9], got_w[3];
         for (int i = 0; i < 3; i++) {
-            char name[16];
+            char name[32];
             snprintf(name, sizeof name, "I%d", i + 1);
             inertia[i] = table_number(&table, row, name);
             snprintf(name, sizeof name, "w%d_0_rads", i + 1);
@@ -54,7 +54,7 @@ static void check_tumble(const char *path)
         for (int i = 0; i < 9; i++)
             assert_near(got[i], want[i], tolerance(t_s));
         for (int i = 0; i < 3; i++) {
-            char name[16];
+            char name[32];
             snprintf(name, sizeof name, "w%d_rads", i + 1);
             assert_near(got_w[i], table_number(&table, row, name), tolerance(t_s));
         }

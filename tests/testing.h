@@ -9,7 +9,10 @@
 #include <string.h>
 
 /* |got - want| <= tol, false for NaN. */
-static inline int is_near(double got, double want, double tol) { return fabs(got - want) <= tol; }
+static inline int is_near(double got, double want, double tol)
+{
+    return fabs(got - want) <= tol;
+}
 
 /* Fails with both values when |got - want| > tol (absolute) or either is NaN. */
 #define assert_near(got, want, tol)                                                                \
@@ -23,7 +26,7 @@ static inline int is_near(double got, double want, double tol) { return fabs(got
 #define assert_rel(got, want, rel)                                                                 \
     do {                                                                                           \
         const double got_ = (got), want_ = (want), rel_ = (rel);                                   \
-        ck_assert_msg(is_near(got_, want_, rel_ * fabs(want_)),                                    \
+        ck_assert_msg(is_near(got_, want_, rel_ *fabs(want_)),                                     \
                       "%s = %.17g; expected %.17g, relative error %g, allowed %g", #got, got_,     \
                       want_, (got_ - want_) / want_, rel_);                                        \
     } while (0)

@@ -44,8 +44,8 @@ typedef struct glint_error {
     char message[1024];
 } glint_error;
 
-/* A growing list of errors and warnings, those of a file in the order of their places. The first 1000
- * are kept, all are counted. */
+/* A growing list of errors and warnings, those of a file in the order of their places. The first
+ * 1000 are kept, all are counted. */
 typedef struct glint_errors glint_errors;
 
 /* A new empty list; NULL when memory is out. Every function takes a NULL list. */
@@ -71,6 +71,11 @@ typedef struct glint_scenario glint_scenario;
  * syntax error, are in the list with their places. Warnings may be in the list on success. */
 glint_status glint_scenario_read(const char *path, const char *const *overrides, size_t n_overrides,
                                  glint_scenario **out, glint_errors *errors);
+/* The same where the attitude and the satellite may be absent, for passes and ephemerides: what
+ * depends on them is then left out of those. */
+glint_status glint_scenario_read_orbit(const char *path, const char *const *overrides,
+                                       size_t n_overrides, glint_scenario **out,
+                                       glint_errors *errors);
 void glint_scenario_free(glint_scenario *scenario);
 
 /* ------------------------------------------------------------- light curve */
@@ -92,26 +97,27 @@ typedef struct glint_utc {
 /* One step of a light curve. Angles in rad, lengths in m. Site fields are 0 where the observer is
  * not a site. */
 typedef struct glint_row {
-    glint_utc utc;             /* of reception at the observer; not set in [geometry] runs */
-    double t_s;                /* TT seconds from the start of the scenario */
-    double range_m;            /* observer to satellite, along the light path */
-    double phase_angle_rad;    /* at the satellite, between Sun and observer */
-    double sunlit_fraction;    /* visible part of the solar disc */
-    double azimuth_rad;        /* from north through east */
-    double elevation_rad;      /* geometric */
-    double sun_elevation_rad;  /* topocentric, geometric */
-    double airmass;            /* 0 below the horizon */
-    double height_m;           /* geodetic, of the satellite; 0 where nothing asks for it */
-    unsigned flags;            /* glint_flag */
-    const double *flux_ratio;  /* n_bands: irradiance at the observer over the Sun's at 1 au */
-    const double *magnitude;   /* n_bands; only where flux_ratio > 0, else 0 */
+    glint_utc utc;                 /* of reception at the observer; not set in [geometry] runs */
+    double t_s;                    /* TT seconds from the start of the scenario */
+    double range_m;                /* observer to satellite, along the light path */
+    double phase_angle_rad;        /* at the satellite, between Sun and observer */
+    double sunlit_fraction;        /* visible part of the solar disc */
+    double azimuth_rad;            /* from north through east */
+    double elevation_rad;          /* geometric */
+    double sun_elevation_rad;      /* topocentric, geometric */
+    double airmass;                /* 0 below the horizon */
+    double height_m;               /* geodetic, of the satellite; 0 where nothing asks for it */
+    unsigned flags;                /* glint_flag */
+    const double *flux_ratio;      /* n_bands: irradiance at the observer over the Sun's at 1 au */
+    const double *magnitude;       /* n_bands; only where flux_ratio > 0, else 0 */
     const double *share_material;  /* n_materials, of the first band's flux; all 0 when dark */
     const double *share_component; /* n_components */
 } glint_row;
 
 /* An output column. */
 typedef struct glint_column {
-    const char *name, *unit, *description; /* borrowed from the curve; unit "" where there is none */
+    const char *name, *unit,
+        *description; /* borrowed from the curve; unit "" where there is none */
     bool is_text;
 } glint_column;
 
@@ -144,6 +150,8 @@ double glint_curve_step_s(const glint_curve *curve);
 /* What the header of a table says about the run: fact k from 0, "zero_point_V" and "-26.76 (...)";
  * false past the end. Texts borrowed. */
 bool glint_curve_fact(const glint_curve *curve, size_t k, const char **key, const char **value);
+/* True when a path names a file that the run was read from: nothing should be written there. */
+bool glint_curve_reads(const glint_curve *curve, const char *path);
 /* The scenario's file, as read. */
 const char *glint_curve_scenario(const glint_curve *curve);
 
@@ -152,7 +160,8 @@ const glint_column *glint_curve_columns(const glint_curve *curve, size_t *n);
 /* Room that glint_curve_text needs. */
 enum { GLINT_CELL_SIZE = 96 };
 /* The number in a cell; false when the cell is empty, or a text. */
-bool glint_curve_value(const glint_curve *curve, const glint_row *row, size_t column, double *value);
+bool glint_curve_value(const glint_curve *curve, const glint_row *row, size_t column,
+                       double *value);
 /* The cell as it stands in the table, terminated; returns its length. */
 size_t glint_curve_text(const glint_curve *curve, const glint_row *row, size_t column,
                         char text[GLINT_CELL_SIZE]);
@@ -161,25 +170,178 @@ size_t glint_curve_text(const glint_curve *curve, const glint_row *row, size_t c
 
 /* What a run came to; times in s of the rows that are in the table. */
 typedef struct glint_summary {
-    int64_t rows;            /* in the table */
-    int64_t bright_rows;     /* with a magnitude in the first band */
+    int64_t rows;                                          /* in the table */
+    int64_t bright_rows;                                   /* with a magnitude in the first band */
     double magnitude_min, magnitude_median, magnitude_max; /* of those; the median to 0.001 mag */
     double percent_brighter_6, percent_brighter_7;         /* of those; first band */
     double sunlit_s, visible_s; /* sunlit_fraction > 0; that, and above the horizon */
     double brightest_t_s;       /* of the brightest row */
     glint_utc brightest_utc;    /* not set in [geometry] runs */
     bool has_utc;
-    const char *band;           /* the first, borrowed from the curve */
+    const char *band; /* the first, borrowed from the curve */
 } glint_summary;
 
-/* Called after each block with the number of steps done; return false to stop the run. */
+/* Called after each block with the number of steps done; return false to stop the run, which then
+ * fails with GLINT_OUTPUT. */
 typedef bool glint_progress(void *context, int64_t done, int64_t all);
 
 /* Writes the whole curve as a table with an ECSV header. path: NULL for standard output; a regular
  * file appears whole or not at all (written beside, synced, renamed); a pipe or device is written
- * to. summary, progress: NULL allowed. Errors: GLINT_OUTPUT, GLINT_INPUT, GLINT_INTERNAL. */
-glint_status glint_table_write(glint_curve *curve, const char *path, glint_summary *summary,
-                               glint_progress *progress, void *context, glint_error *error);
+ * to. picture: a file for magnitudes and shares over time, as glint_plot_check takes it, written
+ * after the table; NULL for none. summary, progress: NULL allowed. Errors: GLINT_OUTPUT,
+ * GLINT_INPUT, GLINT_INTERNAL; GLINT_ARGUMENT for the picture's name. */
+glint_status glint_table_write(glint_curve *curve, const char *path, const char *picture,
+                               glint_summary *summary, glint_progress *progress, void *context,
+                               glint_error *error);
+
+/* ------------------------------------------------------------------- passes */
+
+/* What happens during a pass. */
+typedef enum glint_event_kind {
+    GLINT_RISE,           /* above min_elevation_deg from here on */
+    GLINT_CULMINATION,    /* highest */
+    GLINT_SET,            /* below min_elevation_deg from here on */
+    GLINT_UMBRA_END,      /* the first of the Sun is seen from the satellite */
+    GLINT_PENUMBRA_END,   /* all of it */
+    GLINT_PENUMBRA_BEGIN, /* no longer all of it */
+    GLINT_UMBRA_BEGIN,    /* nothing of it */
+    GLINT_DARKNESS_BEGIN, /* the Sun sets below sun_elevation_max_deg at the site */
+    GLINT_DARKNESS_END,
+    GLINT_BRIGHTEST, /* smallest magnitude in the first band */
+    GLINT_FLASH      /* a flat surface mirrors the Sun towards the observer, as nearly as it will */
+} glint_event_kind;
+
+/* One event, as seen from the site. Angles in rad, lengths in m. */
+typedef struct glint_pass_event {
+    glint_event_kind kind;
+    double t_s; /* TT seconds from the start of the scenario, reception */
+    glint_utc utc;
+    double azimuth_rad, elevation_rad, range_m;
+    double sun_elevation_rad; /* at the site */
+    double phase_angle_rad;
+    double sunlit_fraction;
+    bool site_dark; /* the Sun is below sun_elevation_max_deg */
+    bool has_magnitude;
+    double magnitude; /* in the first band; where there is one */
+    /* Of a flash: */
+    double from_s, to_s;     /* while the mirror angle is within the limit */
+    double mirror_angle_rad; /* between the observer and where the surface mirrors the Sun to */
+    const char *component;   /* borrowed from the scenario; NULL for other events */
+    double normal[3];        /* of the surface, unit, in the component's axes */
+} glint_pass_event;
+
+/* One pass over the site. */
+typedef struct glint_pass {
+    double from_s, to_s;         /* rise and set, or where the time span cuts the pass off */
+    bool up_at_start, up_at_end; /* it is cut off: there is no rise, no set */
+    bool has_magnitudes;         /* attitude and satellite are known: brightness was looked for */
+    bool more_flashes;           /* there are more than were kept: the first 1000 */
+    double sunlit_s;             /* time with some sunlight on the satellite */
+    double dark_site_s;          /* of that, while the site is dark */
+    const glint_pass_event *events; /* in order of time */
+    size_t n_events;
+} glint_pass;
+
+/* What is looked for; zero-initialise for what is usual. */
+typedef struct glint_pass_options {
+    double flash_angle_rad; /* largest mirror angle of a flash; 0: 1 deg */
+    int threads;            /* 0: all processors */
+} glint_pass_options;
+
+/* All passes of a satellite over a site within the time span of the scenario, in order of time. */
+typedef struct glint_passes glint_passes;
+
+/* Finds them. scenario: must outlive *out; of glint_scenario_read_orbit, or glint_scenario_read.
+ * options: NULL for what is usual. Rise, set and the Earth's shadow are found as roots, to 1e-6 s;
+ * [time] step_s plays no part. Errors: GLINT_INPUT (directions are given instead of an orbit; the
+ * orbit fails at some time), GLINT_ARGUMENT, GLINT_INTERNAL. */
+glint_status glint_passes_find(const glint_scenario *scenario, const glint_pass_options *options,
+                               glint_passes **out, glint_error *error);
+void glint_passes_free(glint_passes *passes);
+size_t glint_passes_count(const glint_passes *passes);
+/* Pass k from 0, borrowed; NULL past the end. */
+const glint_pass *glint_passes_get(const glint_passes *passes, size_t k);
+/* Name of the band of the magnitudes, of the site and of the satellite; "" where not said.
+ * Borrowed. */
+const char *glint_passes_band(const glint_passes *passes);
+const char *glint_passes_site(const glint_passes *passes);
+const char *glint_passes_satellite(const glint_passes *passes);
+/* "rise", "culmination", "set", "umbra-end", ...; NULL for no such kind. */
+const char *glint_event_name(glint_event_kind kind);
+/* The nearest of the 16 points of the compass, "NNE". azimuth: rad, finite. */
+const char *glint_compass_point(double azimuth_rad);
+
+/* Ways to write tables. */
+typedef enum glint_format {
+    GLINT_FORMAT_TABLE, /* for people */
+    GLINT_FORMAT_CSV,   /* one line for each event, with an ECSV header */
+    GLINT_FORMAT_JSON
+} glint_format;
+
+/* Writes the passes of n scenarios merged in order of time. path: as of glint_table_write. Errors:
+ * GLINT_OUTPUT, GLINT_INTERNAL. */
+glint_status glint_passes_write(const glint_passes *const *passes, size_t n, glint_format format,
+                                const char *path, glint_error *error);
+
+/* ---------------------------------------------------------------- ephemeris */
+
+/* Where everything is at one step of a scenario. Positions and velocities are those at which the
+ * light left the satellite; angles in rad, SI. */
+typedef struct glint_ephemeris_row {
+    double t_s; /* TT seconds from the start, of reception */
+    glint_utc utc;
+    double ra_rad, dec_rad; /* from the site along the light path, ICRS axes; 0..2 pi, -pi/2..pi/2.
+                               Stars are displaced by annual aberration against it */
+    double angular_rate_rad_s; /* against the stars */
+    double azimuth_rad, elevation_rad, range_m, range_rate_m_s;
+    double sun_elevation_rad, sun_separation_rad, moon_separation_rad; /* from the site */
+    double phase_angle_rad, sunlit_fraction;                           /* at the satellite */
+    double beta_rad; /* of the Sun above the plane of the orbit, positive towards r x v */
+    double r_gcrs_m[3], v_gcrs_m_s[3];
+    double r_itrs_m[3], v_itrs_m_s[3];            /* velocity against the turning Earth */
+    double r_teme_m[3], v_teme_m_s[3];            /* of element sets; else 0 */
+    double latitude_rad, longitude_rad, height_m; /* geodetic: below the satellite, and how high */
+    double quaternion_wxyz[4]; /* turns body axes into GCRS; 0 without an attitude */
+    const double *hinge_rad;   /* of each component that has a hinge, in the order of the model */
+} glint_ephemeris_row;
+
+/* An ephemeris that is being computed: blocks of rows in order of time, in constant memory. */
+typedef struct glint_ephemeris glint_ephemeris;
+
+/* Prepares one. scenario: must outlive it; of glint_scenario_read_orbit, or glint_scenario_read.
+ * threads: 0 for all processors. Errors: GLINT_INPUT (directions are given instead of an orbit),
+ * GLINT_ARGUMENT, GLINT_INTERNAL. */
+glint_status glint_ephemeris_open(const glint_scenario *scenario, int threads,
+                                  glint_ephemeris **out, glint_error *error);
+void glint_ephemeris_close(glint_ephemeris *ephemeris);
+/* The next block: *rows points at *n rows, borrowed until the next call; *n = 0 at the end. Errors:
+ * GLINT_INPUT where orbit or attitude fail at some time; GLINT_INTERNAL. */
+glint_status glint_ephemeris_next(glint_ephemeris *ephemeris, const glint_ephemeris_row **rows,
+                                  size_t *n, glint_error *error);
+/* Number of steps of the whole, and of those done. */
+int64_t glint_ephemeris_length(const glint_ephemeris *ephemeris);
+int64_t glint_ephemeris_done(const glint_ephemeris *ephemeris);
+/* The columns of its table: what the scenario does not have (TEME, attitude, hinges) is not there.
+ */
+const glint_column *glint_ephemeris_columns(const glint_ephemeris *ephemeris, size_t *n);
+/* The number in a cell; false where it is a text (the first column, utc). */
+bool glint_ephemeris_value(const glint_ephemeris *ephemeris, const glint_ephemeris_row *row,
+                           size_t column, double *value);
+/* What the header of its table says: fact k from 0; false past the end. Texts borrowed. */
+bool glint_ephemeris_fact(const glint_ephemeris *ephemeris, size_t k, const char **key,
+                          const char **value);
+/* Writes all of it. path, progress: as of glint_table_write. Errors: those of glint_ephemeris_next;
+ * GLINT_OUTPUT. */
+glint_status glint_ephemeris_write(glint_ephemeris *ephemeris, glint_format format,
+                                   const char *path, glint_progress *progress, void *context,
+                                   glint_error *error);
+
+/* ---------------------------------------------------------------- pictures */
+
+/* Whether a picture can be drawn into a file: its name ends in .svg, .png or .pdf, gnuplot (a
+ * program of its own) is found on PATH, and the file can be written. Pictures appear whole or not
+ * at all. Errors: GLINT_ARGUMENT for another name, GLINT_OUTPUT. */
+glint_status glint_plot_check(const char *path, glint_error *error);
 
 /* ------------------------------------------------------------ check, verify */
 
@@ -206,22 +368,209 @@ glint_status glint_verify(const char *path, const char *const *overrides, size_t
 /* A parameter of a BRDF model. */
 typedef struct glint_brdf_param {
     const char *name, *unit, *doc;
-    double min, max;     /* may be infinite */
+    double min, max;      /* may be infinite */
     double default_value; /* where not required */
     bool required;
+    int dimensions; /* 0: a number; 2: rows of numbers, each in the range */
 } glint_brdf_param;
 
-/* Model k of the table, counted from 0: its name, one line about it, its source; NULL past the end. */
+/* Model k of the table, counted from 0: its name, one line about it, its source; NULL past the end.
+ */
 const char *glint_brdf_name(size_t k);
 const char *glint_brdf_doc(size_t k);
 const char *glint_brdf_source(size_t k);
 /* Parameter j of model k; false past the end. */
 bool glint_brdf_parameter(size_t k, size_t j, glint_brdf_param *out);
 
+/* How a file of measured BRDF values is laid out: rows of numbers, parted by commas, semicolons or
+ * blanks; lines that begin with # are skipped. Zero-initialise for what is usual. */
+typedef struct glint_brdf_layout {
+    /* The columns, "theta_i=1,phi_i=2,theta_r=3,phi_r=4,f=5": of each quantity the number, from 1,
+     * or the name in the header line. theta is the angle from the normal, phi the azimuth, i stands
+     * for the light, r for the observer. Without phi_i that azimuth is 0, without phi_r it is phi_i
+     * + 180 deg. NULL: the columns bear these names. Borrowed. */
+    const char *columns;
+    bool signed_zenith; /* theta may be negative, which means the opposite azimuth */
+    bool radians;       /* angles in rad instead of deg */
+    double floor;       /* 1/sr; rows with f at or below it are left out */
+} glint_brdf_layout;
+
+/* Zero-initialise for what is usual. */
+typedef struct glint_brdf_fit_options {
+    double max_zenith_rad; /* measurements nearer to grazing are left out; 0: 85 deg */
+    bool anisotropic;      /* fit the slopes along and across the tangent apart */
+} glint_brdf_fit_options;
+
+/* Fits of several models to the same measurements, the best first. */
+typedef struct glint_brdf_fits glint_brdf_fits;
+
+/* Fits models to a file of measurements: least squares in ln f, every measurement with the same
+ * weight; parameters within their ranges; many starting points, the same every time.
+ * layout, options: NULL for what is usual. models: sums with commas between them, each of terms
+ * NAME or N*NAME, as in "ward,abg,lambert+2*ward-gmd". Of the terms that are diffuse, or have a
+ * diffuse part, only one may be: the others' is 0. Parameters that have a default keep it.
+ * A model with more parameters than there are measurements is left out with a warning; so are
+ * warnings materials that reflect more than they get.
+ * Errors: GLINT_ARGUMENT (models, columns), GLINT_INPUT (the file), GLINT_INTERNAL. */
+glint_status glint_brdf_fit(const char *path, const glint_brdf_layout *layout, const char *models,
+                            const glint_brdf_fit_options *options, glint_brdf_fits **out,
+                            glint_errors *errors);
+void glint_brdf_fits_free(glint_brdf_fits *fits);
+
+/* What a fit came to. Texts are borrowed. */
+typedef struct glint_brdf_fit_info {
+    const char *model;     /* as glint_brdf_fit takes it */
+    const char *material;  /* name of its table in glint_brdf_fits_toml */
+    size_t n_rows, n_dark; /* in the file; of these, at or below the floor */
+    size_t n_points;       /* that were fitted to */
+    size_t n_free;         /* parameters that were fitted */
+    double max_zenith_rad; /* of the points that were fitted to */
+    double rms_dex;        /* of log10(f_fitted / f_measured), of the material as it is written */
+    double aic, bic;       /* of Akaike and of Schwarz, to be compared among these fits */
+} glint_brdf_fit_info;
+
+/* Fit k in the order of rms_dex, from 0; false past the end. */
+bool glint_brdf_fits_get(const glint_brdf_fits *fits, size_t k, glint_brdf_fit_info *out);
+
+typedef enum glint_brdf_fit_state {
+    GLINT_FIT_DETERMINED,
+    GLINT_FIT_AT_BOUND,     /* the end of its range fits best */
+    GLINT_FIT_UNDETERMINED, /* the measurements do not tell it */
+    GLINT_FIT_TIED,         /* the same as along the tangent */
+    GLINT_FIT_FIXED         /* not fitted */
+} glint_brdf_fit_state;
+
+/* A parameter of a fitted sum. Texts are borrowed. */
+typedef struct glint_brdf_fit_parameter {
+    int lobe;          /* term of the sum, from 0 */
+    const char *model; /* of that term */
+    const char *name, *unit;
+    double value, standard_error; /* the error where determined, else 0 */
+    glint_brdf_fit_state state;
+} glint_brdf_fit_parameter;
+
+/* Parameter j of fit k, in the order of the sum; false past the end. */
+bool glint_brdf_fits_parameter(const glint_brdf_fits *fits, size_t k, size_t j,
+                               glint_brdf_fit_parameter *out);
+
+/* A measurement and what a fit makes of it. */
+typedef struct glint_brdf_fit_point {
+    double i[3], r[3]; /* unit, to the source and to the observer; tangent, bitangent, normal */
+    double f_measured, f_fitted; /* 1/sr; f_fitted only where used */
+    bool used;                   /* false: nearer to grazing than max_zenith_rad */
+} glint_brdf_fit_point;
+
+/* Measurement j beside fit k; false past the end. */
+bool glint_brdf_fits_point(const glint_brdf_fits *fits, size_t k, size_t j,
+                           glint_brdf_fit_point *out);
+
+/* All fits as tables [materials.NAME], the best first. *toml: a new text, free it with glint_free.
+ * Errors: GLINT_INTERNAL. */
+glint_status glint_brdf_fits_toml(const glint_brdf_fits *fits, char **toml, glint_error *error);
+
+/* Draws the four best fits: measurements and curves, and below them the residuals. path: as
+ * glint_plot_check takes it. Errors: as that; GLINT_INTERNAL. */
+glint_status glint_brdf_fits_plot(const glint_brdf_fits *fits, const char *path,
+                                  glint_error *error);
+
+/* --------------------------------------------------------------- materials */
+
+/* A material of a file: how its surface reflects, in one band. Immutable; may be shared by threads.
+ *
+ * Angles are those of a facet: theta from its normal, phi from its tangent t towards n x t. The
+ * light comes from (theta_i, phi_i) and is seen from (theta_r, phi_r); both directions point away
+ * from the facet. A negative theta is the direction on the other side of the normal. */
+typedef struct glint_material glint_material;
+
+/* The names of the materials in a file: those of [materials.NAME] tables, and before them those of
+ * the files in materials_from. path: a file of materials, a model, or a scenario that holds its
+ * model. *names: *n texts in one block of memory, free it with glint_free. Errors: GLINT_INPUT:
+ * unreadable, or there are none. */
+glint_status glint_material_names(const char *path, const char ***names, size_t *n,
+                                  glint_errors *errors);
+
+/* Reads one material of such a file; what else is in the file need not be right. band: "V",
+ * "lsst_g", ...: with the keys that differ in that band; NULL: as the table says, without a band.
+ * Errors: GLINT_INPUT, all that is wrong with the material, or no such name; GLINT_ARGUMENT, no
+ * such band. Warnings may be in the list on success. */
+glint_status glint_material_read(const char *path, const char *name, const char *band,
+                                 glint_material **out, glint_errors *errors);
+void glint_material_free(glint_material *material);
+
+/* Its name, its band ("" without one), its `source` ("" where not said), and its model with the
+ * parameters, "ward rho_d=0.17 ...". Borrowed. */
+const char *glint_material_name(const glint_material *material);
+const char *glint_material_band(const glint_material *material);
+const char *glint_material_source(const glint_material *material);
+const char *glint_material_model(const glint_material *material);
+
+/* The bidirectional reflectance *f, 1/sr, angles in rad. 0 where a direction lies below the horizon
+ * or in it (cosine up to 1e-12): such a facet is dark. Near the horizon f is finite, but may be
+ * very large; a light curve sums f cos(theta_i) cos(theta_r), which is not. Errors: GLINT_ARGUMENT
+ * for angles that are not finite. */
+glint_status glint_material_brdf(const glint_material *material, double theta_i, double phi_i,
+                                 double theta_r, double phi_r, double *f, glint_error *error);
+
+/* The directional-hemispherical reflectance: the part of the light from one direction that is sent
+ * back. theta_i: rad, 0 <= theta_i < pi/2. error_bound: estimate of the absolute error of *dhr,
+ * NULL allowed; 1e-8 of it is aimed at. Errors: GLINT_ARGUMENT for theta_i; GLINT_INPUT where so
+ * much could not be reached (*dhr and *error_bound hold what was); GLINT_INTERNAL. */
+glint_status glint_material_dhr(const glint_material *material, double theta_i, double phi_i,
+                                double *dhr, double *error_bound, glint_error *error);
+
+/* The maximum of f in the plane of incidence that is reached uphill from the mirror direction:
+ * *theta_r in rad, positive on the mirror side; *f in 1/sr. |theta_i| < pi/2. False where there is
+ * none: f rises as far as the horizon, or is 0. */
+bool glint_material_peak(const glint_material *material, double theta_i, double phi_i,
+                         double *theta_r, double *f);
+
+/* What is shown of materials. */
+typedef enum glint_material_view_kind {
+    GLINT_VIEW_PLANE,      /* curves in the plane of incidence */
+    GLINT_VIEW_HEMISPHERE, /* maps over all directions of reflection */
+    GLINT_VIEW_ANGLES,     /* values at the angles in a file */
+    GLINT_VIEW_DHR         /* directional-hemispherical reflectance */
+} glint_material_view_kind;
+
+/* How it is shown; angles in deg, since they end up in columns. */
+typedef struct glint_material_view {
+    glint_material_view_kind kind;
+    const double
+        *theta_i_deg; /* angles of incidence, 0 <= theta_i < 90; not of GLINT_VIEW_ANGLES */
+    size_t n_theta_i;
+    double phi_i_deg; /* azimuth of the plane of incidence */
+    double step_deg; /* between directions of reflection in the table, at most 45; at least 0.001 in
+                        the plane of incidence, 0.25 of maps. The mirror direction is always among
+                        them. Pictures are as fine as they need be */
+    const char *angles; /* file with columns theta_i_deg, phi_i_deg, theta_r_deg, phi_r_deg; of
+                           GLINT_VIEW_ANGLES */
+    const char *const *labels; /* what materials are called in columns and legends; NULL: by name */
+    bool logarithmic;          /* scale of the picture */
+} glint_material_view;
+
+/* Writes what is shown of n materials as a table with an ECSV header. path: as of
+ * glint_table_write. Errors: GLINT_ARGUMENT; GLINT_INPUT from the file of angles, with its places;
+ * GLINT_OUTPUT; GLINT_INTERNAL. */
+glint_status glint_material_table_write(const glint_material *const *materials, size_t n,
+                                        const glint_material_view *view, const char *path,
+                                        glint_errors *errors);
+/* Draws it. path: as glint_plot_check takes it. Errors: the same; GLINT_ARGUMENT also for more than
+ * 12 maps. */
+glint_status glint_material_plot_write(const glint_material *const *materials, size_t n,
+                                       const glint_material_view *view, const char *path,
+                                       glint_errors *errors);
+
 /* -------------------------------------------------------------------- other */
 
 /* The version, "0.1.0". */
 const char *glint_version(void);
+/* The name among n that is nearest to `wanted`, as a message might suggest it; NULL when none is
+ * near enough to be a slip. */
+const char *glint_nearest_name(const char *wanted, const char *const *names, size_t n);
+/* Writes a text to a file that appears whole or not at all, as glint_table_write does. path: NULL
+ * for standard output. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
+glint_status glint_text_write(const char *path, const char *text, size_t length,
+                              glint_error *error);
 /* Frees memory that a function of this header handed out. */
 void glint_free(void *memory);
 

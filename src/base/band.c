@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Magnitudes of the Sun: Willmer 2018, ApJS 236, 47, tables 3 and 4, rounded to 0.01 as there; pivot
- * wavelengths from the same tables. Extinction: LSST site (Cerro Pachon), as documented by the
- * lightcurvelynx project. */
+/* Magnitudes of the Sun: Willmer 2018, ApJS 236, 47, tables 3 and 4, rounded to 0.01 as there;
+ * pivot wavelengths from the same tables. Extinction: LSST site (Cerro Pachon), as documented by
+ * the lightcurvelynx project. */
 static const band_info BANDS[] = {
     {"U", "Johnson U", 0.3611, -25.97, -25.25, NAN, SYSTEM_VEGA},
     {"B", "Johnson B", 0.4396, -26.13, -26.26, NAN, SYSTEM_VEGA},

@@ -9,12 +9,12 @@ typedef enum magnitude_system { SYSTEM_VEGA, SYSTEM_AB } magnitude_system;
 
 /* One band. */
 typedef struct band_info {
-    const char *name;         /* "V", "sdss_g", "lsst_g" */
-    const char *doc;          /* the filter, in words */
-    double pivot_um;          /* pivot wavelength, um */
-    double sun_vega, sun_ab;  /* apparent magnitude of the Sun at 1 au; NAN where not published */
-    double site_extinction;   /* mag per airmass at the LSST site; NAN where the scenario must say */
-    magnitude_system system;  /* its usual system */
+    const char *name;        /* "V", "sdss_g", "lsst_g" */
+    const char *doc;         /* the filter, in words */
+    double pivot_um;         /* pivot wavelength, um */
+    double sun_vega, sun_ab; /* apparent magnitude of the Sun at 1 au; NAN where not published */
+    double site_extinction;  /* mag per airmass at the LSST site; NAN where the scenario must say */
+    magnitude_system system; /* its usual system */
 } band_info;
 
 /* Band k of the table from 0; NULL past the end. */

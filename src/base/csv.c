@@ -22,7 +22,8 @@ static bool is_blank(char c)
 
 static bool at_line_end(const reader *r)
 {
-    return r->at >= r->end || *r->at == '\n' || (*r->at == '\r' && r->at + 1 < r->end && r->at[1] == '\n');
+    return r->at >= r->end || *r->at == '\n' ||
+           (*r->at == '\r' && r->at + 1 < r->end && r->at[1] == '\n');
 }
 
 static void next_line(reader *r)
@@ -54,7 +55,8 @@ static glint_status read_quoted(reader *r, csv_cell *cell)
     cell->text = out;
     for (;;) {
         if (in >= r->end || *in == '\n')
-            return errors_add(r->errors, GLINT_INPUT, (place){r->table->path, cell->line, cell->column},
+            return errors_add(r->errors, GLINT_INPUT,
+                              (place){r->table->path, cell->line, cell->column},
                               "this cell's opening quote has no closing quote on its line");
         if (*in == '"' && in + 1 < r->end && in[1] == '"') {
             *out++ = '"';
@@ -91,7 +93,8 @@ static glint_status read_line(reader *r, int *n)
             while (stop > cell.text && is_blank(stop[-1]))
                 stop--;
         }
-        if (!push(r, cell)) return errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+        if (!push(r, cell))
+            return errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
         ++*n;
         const bool more = r->at < r->end && *r->at == ',';
         if (!more && !at_line_end(r))
@@ -143,7 +146,7 @@ static glint_status read_all(reader *r)
         const int line = r->line;
         const size_t before = r->count;
         const glint_status failed = read_line(r, &n);
-        if (failed == GLINT_INTERNAL) return failed;
+        if (failed == GLINT_INTERNAL || (failed && t->n_columns == 0)) return failed;
         if (failed) {
             status = failed;
             r->count = before;
@@ -155,9 +158,9 @@ static glint_status read_all(reader *r)
             const glint_status bad = check_header(t, r->errors);
             if (bad) return bad;
         } else if (n != t->n_columns) {
-            status = errors_add(r->errors, GLINT_INPUT, (place){t->path, line, 1},
-                                "this row has %d cells; expected %d, as in the header", n,
-                                t->n_columns);
+            status =
+                errors_add(r->errors, GLINT_INPUT, (place){t->path, line, 1},
+                           "this row has %d cells; expected %d, as in the header", n, t->n_columns);
             r->count = before;
         } else {
             t->n_rows++;

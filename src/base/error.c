@@ -19,6 +19,7 @@ static void mark_cut(char *text, size_t size)
     memcpy(text + size - 4, "...", 4);
 }
 
+GLINT_PRINTF(5, 0)
 static void fill(glint_error *error, glint_status status, glint_severity severity, place where,
                  const char *format, va_list args)
 {

@@ -14,8 +14,8 @@ extern "C" size_t number_format(double value, char *out)
 namespace
 {
 
-// Whether a decimal number that is out of a double's range is too large, not too small: by the power of
-// ten of its first digit that is not 0. The standard library reports both alike.
+// Whether a decimal number that is out of a double's range is too large, not too small: by the
+// power of ten of its first digit that is not 0. The standard library reports both alike.
 bool is_too_large(const char *s, size_t n)
 {
     long long before_point = 0, exponent = 0; // digits from the first that is not 0 up to the point

@@ -9,15 +9,16 @@
 /* One parameter. Ranges are closed unless OPEN is flagged. */
 typedef struct param_info {
     const char *name, *unit, *doc;
-    double min, max; /* in `unit`; -INFINITY, INFINITY: no limit */
+    double min, max; /* in `unit`; -INFINITY, INFINITY: no limit; of an array: of each element */
     double def;      /* default; NAN: none, must be given unless PARAM_OPTIONAL is flagged */
     unsigned flags;  /* PARAM_MIN_OPEN, PARAM_MAX_OPEN: that end does not belong to the range;
-                        PARAM_OPTIONAL: may be left out, and is NAN then */
+                        PARAM_OPTIONAL: may be left out, and is NAN then;
+                        PARAM_ROWS: not a number but rows of numbers, all of one length */
 } param_info;
 
 #define PARAM_REQUIRED ((double)NAN)
 #define PARAM_NONE ((double)NAN) /* the default of an optional parameter that has none */
-enum { PARAM_MIN_OPEN = 1u, PARAM_MAX_OPEN = 2u, PARAM_OPTIONAL = 4u };
+enum { PARAM_MIN_OPEN = 1u, PARAM_MAX_OPEN = 2u, PARAM_OPTIONAL = 4u, PARAM_ROWS = 8u };
 
 static inline bool param_is_required(const param_info *p)
 {

@@ -153,6 +153,11 @@ const char *nearest_name(const char *wanted, const char *const *names, size_t n)
     return least <= limit ? nearest : NULL;
 }
 
+const char *glint_nearest_name(const char *wanted, const char *const *names, size_t n)
+{
+    return nearest_name(wanted, names, n);
+}
+
 glint_status file_read(const char *path, char **data, size_t *size, place asked_from,
                        glint_error *error)
 {
@@ -167,8 +172,8 @@ glint_status file_read(const char *path, char **data, size_t *size, place asked_
         return error_set(error, GLINT_INPUT, where, "'%s' is %s; expected a file", path,
                          S_ISDIR(info.st_mode) ? "a directory" : "not a regular file");
     if (info.st_size > LARGEST)
-        return error_set(error, GLINT_INPUT, where, "'%s' has more than 1 GiB; expected a smaller file",
-                         path);
+        return error_set(error, GLINT_INPUT, where,
+                         "'%s' has more than 1 GiB; expected a smaller file", path);
     FILE *file = fopen(path, "rb");
     if (!file)
         return error_set(error, GLINT_INPUT, where, "cannot open '%s': %s", path, strerror(errno));

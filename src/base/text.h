@@ -1,4 +1,5 @@
-/* text.h: growing text buffers, number formatting and reading, paths, nearest names, whole files. */
+/* text.h: growing text buffers, number formatting and reading, paths, nearest names, whole files.
+ */
 #ifndef GLINT_BASE_TEXT_H
 #define GLINT_BASE_TEXT_H
 
@@ -32,8 +33,8 @@ enum { NUMBER_SIZE = 32 };
 /* Writes the shortest decimal form that reads back as the same double; returns its length, not
  * counting a terminator (none is written). */
 size_t number_format(double value, char *out);
-/* Reads one decimal number that fills the `n` bytes at `s` entirely (a leading '+' is accepted; hex,
- * inf and nan are not). False when there is none, or it overflows. */
+/* Reads one decimal number that fills the `n` bytes at `s` entirely (a leading '+' is accepted;
+ * hex, inf and nan are not). False when there is none, or it overflows. */
 bool number_read(const char *s, size_t n, double *value);
 
 /* A copy of s (length n) from malloc; NULL when memory is out. */

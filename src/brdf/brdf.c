@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In the order of the listings: diffuse, lobes, microfacets, scatter, powders. */
+/* In the order of the listings: diffuse, lobes, microfacets, scatter, powders, measurements. */
 static const brdf_model *const models[] = {
     &brdf_lambert,
     &brdf_oren_nayar,
@@ -22,8 +22,10 @@ static const brdf_model *const models[] = {
     &brdf_ggx,
     &brdf_five_parameter,
     &brdf_abg,
+    &brdf_binomial,
     &brdf_lommel_seeliger,
     &brdf_hapke,
+    &brdf_table,
 };
 
 enum { N_MODELS = sizeof models / sizeof models[0] };
@@ -54,12 +56,43 @@ void brdf_light_finish(brdf_light *light)
     }
 }
 
+bool brdf_lobe_make_arrays(brdf_lobe *lobe)
+{
+    lobe->arrays = calloc((size_t)lobe->model->n_params, sizeof *lobe->arrays);
+    return lobe->arrays != NULL;
+}
+
+glint_status brdf_lobe_prepare(brdf_lobe *lobe, glint_error *error)
+{
+    if (lobe->model->prepare_lobe) return lobe->model->prepare_lobe(lobe, error);
+    return lobe->model->prepare(lobe->params, lobe->coef, error);
+}
+
+glint_status brdf_prepare_without_arrays(const double *params, double coef[BRDF_MAX_COEF],
+                                         glint_error *error)
+{
+    (void)params;
+    (void)coef;
+    return error_set(error, GLINT_INPUT, PLACE_NONE, "this model takes more than numbers");
+}
+
+void brdf_lobe_free(brdf_lobe *lobe)
+{
+    for (int k = 0; lobe->arrays && k < lobe->model->n_params; k++)
+        free(lobe->arrays[k].values);
+    free(lobe->arrays);
+    free(lobe->numbers);
+    lobe->arrays = NULL;
+    lobe->numbers = NULL;
+    lobe->n_numbers = 0;
+}
+
 double brdf_material_eval(const brdf_material *material, const double i[3], const double r[3])
 {
     double g = 0.0;
     for (int k = 0; k < material->n_lobes; k++) {
         const brdf_lobe *lobe = &material->lobes[k];
-        g += lobe->weight * lobe->model->eval(lobe->coef, i, r);
+        g += lobe->weight * lobe->model->eval(brdf_lobe_coef(lobe), i, r);
     }
     return g;
 }
@@ -69,7 +102,7 @@ void brdf_material_tile(const brdf_material *material, const brdf_facets *facets
 {
     for (int k = 0; k < material->n_lobes; k++) {
         const brdf_lobe *lobe = &material->lobes[k];
-        lobe->model->tile(lobe->coef, lobe->weight, facets, light, visible, sum);
+        lobe->model->tile(brdf_lobe_coef(lobe), lobe->weight, facets, light, visible, sum);
     }
 }
 
@@ -83,6 +116,9 @@ static bool same_lobe(const brdf_lobe *a, const brdf_lobe *b)
     if (a->model != b->model || a->weight != b->weight) return false;
     for (int j = 0; j < a->model->n_params; j++)
         if (!same_number(a->params[j], b->params[j])) return false;
+    if (a->n_numbers != b->n_numbers) return false;
+    for (size_t j = 0; j < a->n_numbers; j++)
+        if (!same_number(a->numbers[j], b->numbers[j])) return false;
     return true;
 }
 
@@ -97,6 +133,8 @@ bool brdf_material_same(const brdf_material *a, const brdf_material *b)
 void brdf_material_free(brdf_material *material)
 {
     if (!material) return;
+    for (int k = 0; k < material->n_lobes; k++)
+        brdf_lobe_free(&material->lobes[k]);
     free(material->lobes);
     *material = (brdf_material){0};
 }
@@ -126,6 +164,7 @@ bool glint_brdf_parameter(size_t k, size_t j, glint_brdf_param *out)
                               .min = p->min,
                               .max = p->max,
                               .default_value = p->def,
+                              .dimensions = p->flags & PARAM_ROWS ? 2 : 0,
                               .required = param_is_required(p)};
     return true;
 }

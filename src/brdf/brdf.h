@@ -42,8 +42,11 @@ void brdf_light_finish(brdf_light *light);
 enum {
     BRDF_ISOTROPIC = 1u << 0,      /* does not depend on the tangent */
     BRDF_NOT_RECIPROCAL = 1u << 1, /* f(i,r) != f(r,i), documented in `doc` */
-    BRDF_WAVELENGTH = 1u << 2      /* takes k_per_um and wavelength_um: both or neither */
+    BRDF_WAVELENGTH = 1u << 2,     /* takes k_per_um and wavelength_um: both or neither */
+    BRDF_MEASURED = 1u << 3        /* takes the rows of a file: table_prepare makes its lobes */
 };
+
+struct brdf_lobe;
 
 /* One model: a row of the table. */
 typedef struct brdf_model {
@@ -53,10 +56,15 @@ typedef struct brdf_model {
     unsigned flags;
     /* Turns parameters (in the table's order and units, checked against their ranges by the caller;
      * an optional one that was not given is NAN) into the numbers that the kernel reads. Errors
-     * (GLINT_INPUT): combinations that make no sense. */
+     * (GLINT_INPUT): combinations that make no sense; of a model with prepare_lobe: always. */
     glint_status (*prepare)(const double *params, double coef[BRDF_MAX_COEF], glint_error *error);
+    /* For models that take arrays, and keep more numbers than coef has room for: turns the lobe's
+     * params and arrays into lobe->numbers, which then stand in the place of coef below. NULL for
+     * the others. Errors: GLINT_INPUT as above; GLINT_INTERNAL: memory is out. */
+    glint_status (*prepare_lobe)(struct brdf_lobe *lobe, glint_error *error);
     /* g = f ci cr, 1/sr, for one pair; i, r in the facet's frame (t, b, n), unit. Here and below
-     * coef has all BRDF_MAX_COEF entries, of which `prepare` fills the model's own. */
+     * coef has all BRDF_MAX_COEF entries, of which `prepare` fills the model's own, or is the
+     * lobe's `numbers`: brdf_lobe_coef tells which. */
     double (*eval)(const double *coef, const double i[3], const double r[3]);
     /* sum[k] += sum over facets of weight * g * area * visible[facet * BRDF_TILE + k], for every
      * lane k, m^2/sr. visible: NULL for all 1. The fused kernel: same formula as eval. A lane's
@@ -70,13 +78,38 @@ const brdf_model *brdf_model_at(size_t k);
 /* The model of that name, or NULL. */
 const brdf_model *brdf_model_named(const char *name);
 
-/* One weighted lobe of a material, prepared. */
+/* A parameter that is an array: rows of equal length, row-major. `values` owned by the lobe. */
+typedef struct brdf_array {
+    int rows, columns;
+    double *values;
+} brdf_array;
+
+/* One weighted lobe of a material, prepared. What brdf_lobe_free ends is owned. */
 typedef struct brdf_lobe {
     const brdf_model *model;
     double weight;
     double params[BRDF_MAX_PARAMS]; /* as given, for reports; NAN where not given */
     double coef[BRDF_MAX_COEF];
+    brdf_array *arrays; /* owned; NULL, or one for each parameter, empty where that is a number */
+    double *numbers;    /* owned; NULL, or what prepare_lobe made */
+    size_t n_numbers;
 } brdf_lobe;
+
+/* Makes room for the arrays of a model that takes some, all empty. False when memory is out. */
+bool brdf_lobe_make_arrays(brdf_lobe *lobe);
+/* Prepares a lobe whose model, params and arrays are set. Errors as brdf_model.prepare and
+ * prepare_lobe. */
+glint_status brdf_lobe_prepare(brdf_lobe *lobe, glint_error *error);
+void brdf_lobe_free(brdf_lobe *lobe);
+/* The `prepare` of models that have prepare_lobe: an error. */
+glint_status brdf_prepare_without_arrays(const double *params, double coef[BRDF_MAX_COEF],
+                                         glint_error *error);
+
+/* The numbers that the model's eval and tile read. */
+static inline const double *brdf_lobe_coef(const brdf_lobe *lobe)
+{
+    return lobe->numbers ? lobe->numbers : lobe->coef;
+}
 
 /* A material in one band: the weighted sum of its lobes. `lobes` owned. */
 typedef struct brdf_material {

@@ -14,19 +14,27 @@ enum {
     MEASURED_COLUMNS
 };
 
-/* How a file is laid out. theta is the angle from the normal, phi the azimuth. */
+/* Where a quantity stands: in the column of that name or, where name is NULL, in the column of that
+ * number from 1. Neither (NULL and 0): the file has no such column. */
+typedef struct measured_column {
+    const char *name; /* borrowed */
+    int number;
+    place where; /* of the key, for messages */
+} measured_column;
+
+/* How a file is laid out. theta is the angle from the normal, phi the azimuth.
+ *
+ * theta_i, theta_r and f must be there. Without phi_i that azimuth is 0; without phi_r it is 180
+ * deg from phi_i, on the mirror's side. All zero: the columns bear the names theta_i, phi_i,
+ * theta_r, phi_r and f, and the two azimuths may be absent. */
 typedef struct measured_format {
-    /* Each column by its name in the header (owned by the caller) or, where name is NULL, by its
-     * number from 1; number 0 and no name: the file has no such column, and the angle is 0 (phi_i),
-     * or phi_r is phi_i + 180 deg (in plane). theta_i, theta_r and f must be there. */
-    struct {
-        const char *name;
-        int number;
-        place where; /* of the key, for messages */
-    } column[MEASURED_COLUMNS];
-    bool signed_zenith; /* theta_r is negative on the side of the source (phi_r = phi_i), positive
-                           on the mirror side; then phi_r is not read */
+    measured_column column[MEASURED_COLUMNS];
+    bool signed_zenith; /* theta may be negative, which means the opposite azimuth: without columns
+                           of phi, theta_r is positive on the mirror's side of the normal and
+                           negative on the source's */
     bool radians;       /* angles in rad instead of deg */
+    double floor;       /* 1/sr, at least 0: what the instrument writes where it sees nothing; rows
+                           with f at or below it are left out */
 } measured_format;
 
 /* One measurement. */
@@ -39,16 +47,28 @@ typedef struct measured_point {
 typedef struct measured {
     measured_point *points; /* owned */
     int n;
-    int n_dropped; /* rows left out: f = 0 or below the horizon of the instrument; said in reports
-                    */
+    int n_dropped; /* rows left out because f is not above the floor */
     bool in_plane; /* every row lies in the plane of incidence */
 } measured;
 
-/* Comment lines (#, %, !, //) and blank lines are skipped; cells are separated by commas,
- * semicolons, tabs or blanks; a header line of names is recognised where the first line holds no
- * number. Errors (GLINT_INPUT, with file:line:column, all found): unreadable, no such column, a row
- * of another length, a cell that is no finite number, theta outside 0..90 deg (-90..90 when
- * signed), f negative; fewer than 3 usable rows. */
+/* Name of a quantity: "theta_i", ... */
+const char *measured_name(int quantity);
+
+/* Reads a file of rows of numbers.
+ *
+ * Lines that begin with #, %, ! or //, and blank lines, are skipped. The cells of a line are parted
+ * by semicolons, else by commas, else by blanks and tabs. A first line without any number is the
+ * header; where there is none, the last comment before the first row is, if it has as many words as
+ * the row has cells. Columns that the format does not name may hold anything. CRLF and a byte order
+ * mark are accepted.
+ * asked_from: place of the value that names the file. *out is measured_free's on success and empty
+ * on error.
+ * Errors (GLINT_INPUT, all that were found, at the file's line and column): unreadable, a zero
+ * byte, more than 256 columns, no such column, a column named twice, a row of another length, a
+ * cell that is no finite number, theta outside 0 to 90 deg (-90 to 90 when signed), f negative,
+ * fewer than 3 usable rows. GLINT_INTERNAL: memory is out.
+ * A file that was cut in the middle of a row is refused for the cells that are missing. One cut in
+ * the middle of its last number (0.012 for 0.0123) cannot be told from a whole one. */
 glint_status measured_read(const char *path, place asked_from, const measured_format *format,
                            measured *out, glint_errors *errors);
 void measured_free(measured *m);

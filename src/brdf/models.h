@@ -18,6 +18,8 @@ extern const brdf_model brdf_minnaert;
 extern const brdf_model brdf_lommel_seeliger;
 extern const brdf_model brdf_hapke;
 extern const brdf_model brdf_abg;
+extern const brdf_model brdf_binomial;
 extern const brdf_model brdf_five_parameter;
+extern const brdf_model brdf_table;
 
 #endif

@@ -5,7 +5,8 @@
  *     static inline double formula(const double *coef, const brdf_lane *lane);
  *
  * which returns g = f ci cr (1/sr) of one pair of directions from the coefficients of `prepare`,
- * and then includes this file. The formula must be finite wherever ci > BRDF_EDGE and cr >
+ * and then includes this file; if the model keeps its numbers in the lobe (prepare_lobe), it also
+ * defines BRDF_LONG_COEF. The formula must be finite wherever ci > BRDF_EDGE and cr >
  * BRDF_EDGE; elsewhere it may return anything, but must not trap. What it does not read of the lane
  * costs nothing: after inlining the compiler drops it.
  *
@@ -105,9 +106,13 @@ BRDF_CLONES BRDF_FLATTEN static void brdf_tile(const double *coef, double weight
                                                const brdf_facets *facets, const brdf_light *light,
                                                const double *visible, double sum[BRDF_TILE])
 {
+#ifdef BRDF_LONG_COEF
+    const double *const c = coef;
+#else
     double c[BRDF_MAX_COEF]; /* a copy that nothing else can point at */
-    _Alignas(64) double ci[BRDF_TILE], cr[BRDF_TILE], scale[BRDF_TILE], total[BRDF_TILE] = {0};
     memcpy(c, coef, sizeof c);
+#endif
+    _Alignas(64) double ci[BRDF_TILE], cr[BRDF_TILE], scale[BRDF_TILE], total[BRDF_TILE] = {0};
     for (int f = 0; f < facets->n; f++) {
         if (!tile_cosines(facets, f, light, ci, cr)) continue;
         const double *part = visible ? visible + (size_t)f * BRDF_TILE : NULL;

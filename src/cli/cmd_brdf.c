@@ -16,7 +16,7 @@ static void range_text(const glint_brdf_param *p, char out[CELL])
 {
     const bool low = isfinite(p->min), high = isfinite(p->max);
     if (low && high)
-        snprintf(out, CELL, "%g to %g", p->min, p->max);
+        snprintf(out, CELL, "%g to %g%s", p->min, p->max, p->dimensions ? " (rows)" : "");
     else if (low)
         snprintf(out, CELL, "from %g", p->min);
     else if (high)

@@ -9,8 +9,8 @@ static glint_status write_table(glint_curve *curve, const options *o)
     glint_error error = {0};
     progress_bar bar = {0};
     const bool drawn = progress_wanted(o->quiet, o->output != NULL);
-    const glint_status status =
-        glint_table_write(curve, o->output, &summary, drawn ? progress_draw : NULL, &bar, &error);
+    const glint_status status = glint_table_write(curve, o->output, o->plot, &summary,
+                                                  drawn ? progress_draw : NULL, &bar, &error);
     progress_end(&bar);
     if (status == GLINT_OUTPUT && !o->output && output_reader_left()) return status;
     if (status)
@@ -22,6 +22,11 @@ static glint_status write_table(glint_curve *curve, const options *o)
 
 glint_status cmd_run(const options *o)
 {
+    glint_error error;
+    if (o->plot && glint_plot_check(o->plot, &error)) {
+        report_error(&error);
+        return error.status;
+    }
     glint_errors *errors = glint_errors_new();
     glint_scenario *scenario = NULL;
     glint_curve *curve = NULL;

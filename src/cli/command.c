@@ -1,7 +1,6 @@
 #include "cli/command.h"
 
 #include "cli/report.h"
-#include "cli/suggest.h"
 
 #include <limits.h>
 #include <string.h>
@@ -16,6 +15,10 @@ enum {
 
 static const char *const csv_only[] = {"csv", NULL};
 static const char *const text_only[] = {"text", NULL};
+static const char *const toml_only[] = {"toml", NULL};
+
+static const char *const table_first[] = {"table", "csv", "json", NULL};
+static const char *const csv_first[] = {"csv", "json", "table", NULL};
 
 static const command commands[] = {
     {.name = "run",
@@ -27,11 +30,12 @@ static const command commands[] = {
          "sky for a site on the ground, and the shares of materials and components. The table\n"
          "begins with a header of comments (ECSV) that holds units and the whole scenario.\n"
          "\n"
-         "A summary on standard error ends the run.",
+         "With --plot the magnitudes and the shares over time are drawn, too. A summary on\n"
+         "standard error ends the run.",
      .example = "glint run scenarios/iss-vienna.toml --set time.step_s=0.5 -o iss-vienna.csv",
      .example_doc = "the space station over Vienna in steps of half a second",
      .formats = csv_only,
-     .options = WITH_SCENARIO,
+     .options = WITH_SCENARIO | BIT(OPTION_PLOT),
      .min_operands = 1,
      .max_operands = 1,
      .run = cmd_run},
@@ -62,6 +66,42 @@ static const command commands[] = {
      .min_operands = 1,
      .max_operands = INT_MAX,
      .run = cmd_verify},
+    {.name = "passes",
+     .arguments = "SCENARIO...",
+     .summary = "find passes over the site: rise, set, shadow, brightest moment, flashes",
+     .details =
+         "Finds when the satellite is above min_elevation_deg, when it culminates, when it enters\n"
+         "and leaves the Earth's shadow, and when the site is dark, all to 1 ms; with an attitude\n"
+         "and a satellite also when it is brightest, and when a flat shiny surface mirrors the\n"
+         "Sun to the observer. The step of the scenario plays no part. Passes of several\n"
+         "scenarios become one table in order of time.\n"
+         "\n"
+         "[attitude] and [satellite] may be absent: there is no brightness then.",
+     .example = "glint passes scenarios/iss-vienna.toml --set time.end=2025-07-27T19:10:00Z",
+     .example_doc = "passes of the space station over Vienna in three days",
+     .formats = table_first,
+     .options = WITH_SCENARIO | BIT(OPTION_FLASH_ANGLE),
+     .min_operands = 1,
+     .max_operands = INT_MAX,
+     .run = cmd_passes},
+    {.name = "ephemeris",
+     .arguments = "SCENARIO",
+     .summary = "write positions, directions and angles over time, frame by frame",
+     .details =
+         "A row for every step: right ascension and declination from the site, angular rate,\n"
+         "azimuth, elevation, range and range rate, distance from the Sun and the Moon in the\n"
+         "sky, phase angle, sunlit fraction, the Sun above the plane of the orbit, the point\n"
+         "below the satellite, positions and velocities in GCRS, ITRS and (of element sets)\n"
+         "TEME, the attitude as a quaternion, the angles of the hinges.\n"
+         "\n"
+         "[attitude] and [satellite] may be absent: their columns then are, too.",
+     .example = "glint ephemeris scenarios/iss-vienna.toml --format table",
+     .example_doc = "where to point a telescope, second by second",
+     .formats = csv_first,
+     .options = WITH_SCENARIO,
+     .min_operands = 1,
+     .max_operands = 1,
+     .run = cmd_ephemeris},
     {.name = "brdf list",
      .arguments = "",
      .summary = "list the reflectance models and their parameters",
@@ -75,10 +115,57 @@ static const command commands[] = {
      .min_operands = 0,
      .max_operands = 0,
      .run = cmd_brdf_list},
+    {.name = "brdf show",
+     .arguments = "FILE:NAME...",
+     .summary = "show how materials reflect: curves, maps, values",
+     .details =
+         "Writes the BRDF (1/sr) of materials side by side as a table: over the angle of\n"
+         "reflection in the plane of incidence (--incidence, the default), over the hemisphere\n"
+         "(--hemisphere), at angles from a file (--geometry), or its sum over the hemisphere, the\n"
+         "reflectance (--dhr). NAME is a material of FILE, which is a file of materials or a\n"
+         "model; without NAME all its materials are shown. Angles are in deg.\n"
+         "\n"
+         "With --plot it is drawn, too. The peaks of curves end up on standard error.",
+     .example = "glint brdf show scenarios/materials/huang2013.toml --plot panel-and-mli.png",
+     .example_doc = "a solar panel and MLI at six angles of incidence",
+     .formats = csv_only,
+     .options = GENERAL | BIT(OPTION_PLOT) | BIT(OPTION_INCIDENCE) | BIT(OPTION_HEMISPHERE) |
+                BIT(OPTION_GEOMETRY) | BIT(OPTION_DHR) | BIT(OPTION_AZIMUTH) | BIT(OPTION_STEP) |
+                BIT(OPTION_BAND) | BIT(OPTION_LOG),
+     .min_operands = 1,
+     .max_operands = INT_MAX,
+     .run = cmd_brdf_show},
+    {.name = "brdf fit",
+     .arguments = "DATA",
+     .summary = "fit reflectance models to measurements",
+     .details =
+         "Reads DATA, a table of measured values of a BRDF: angles from the normal (theta) and\n"
+         "azimuths (phi) of the light (i) and of the observer (r), and f in 1/sr. Fits every\n"
+         "model of --model by least squares in the logarithm of f, and prints them in the order\n"
+         "of their rms deviation in dex (powers of ten), with parameters and standard errors,\n"
+         "and the materials to be used in a model file. Standard errors and the criteria AIC and\n"
+         "BIC take the errors of the measurements for independent.\n"
+         "\n"
+         "In a sum such as lambert+2*ward-gmd only one term is diffuse: the other terms' own\n"
+         "diffuse parts are 0. Lobes are the same along and across the tangent unless\n"
+         "--anisotropic is given. Parameters that have a default keep it.\n"
+         "\n"
+         "With -o the materials go to the file, the report before them as comments, and the\n"
+         "report is printed. With --plot measurements, curves and residuals of the four best\n"
+         "fits are drawn.",
+     .example = "glint brdf fit chassis_brdf.csv --columns theta_i=1,phi_i=2,theta_r=3,phi_r=4,f=5 "
+                "--signed-zenith --model ward,lambert+abg,lambert+2*ward-gmd -o chassis.toml",
+     .example_doc = "which model describes these measurements best?",
+     .formats = toml_only,
+     .options = GENERAL | BIT(OPTION_PLOT) | BIT(OPTION_MODEL) | BIT(OPTION_COLUMNS) |
+                BIT(OPTION_SIGNED_ZENITH) | BIT(OPTION_ANGLES) | BIT(OPTION_FLOOR) |
+                BIT(OPTION_MAX_ZENITH) | BIT(OPTION_ANISOTROPIC),
+     .min_operands = 1,
+     .max_operands = 1,
+     .run = cmd_brdf_fit},
 };
 
-static const char *const planned[] = {"shares", "compare", "passes",    "ephemeris",
-                                      "view",   "sweep",   "brdf show", "brdf fit"};
+static const char *const planned[] = {"shares", "compare", "view", "sweep"};
 
 enum {
     N_COMMANDS = sizeof commands / sizeof *commands,
@@ -159,7 +246,7 @@ glint_status command_find(int n, const char *const *words, const command **out, 
     if (members[0])
         return error_say(error, GLINT_ARGUMENT, "'glint %s' needs one more word: %s", words[0],
                          members);
-    const char *near = suggest(words[0], names, N_COMMANDS);
+    const char *near = glint_nearest_name(words[0], names, N_COMMANDS);
     if (near)
         return error_say(error, GLINT_ARGUMENT, "unknown command '%s'; did you mean '%s'?",
                          words[0], near);

@@ -198,6 +198,21 @@ static void completion_case(FILE *out, const command *c)
     fprintf(out, "' ;;&\n"); /* the next is tried too: "brdf list", "brdf show" */
 }
 
+/* A pattern of the options whose value is (is not) the name of a file; --format and --completion
+ * have words of their own. */
+static void completion_values(FILE *out, bool files)
+{
+    const char *between = "";
+    for (int id = 0; id < OPTION_COUNT; id++) {
+        const option_info *o = option_get((option_id)id);
+        if (!o->value || id == OPTION_FORMAT || id == OPTION_COMPLETION) continue;
+        if ((strcmp(o->value, "FILE") == 0) != files) continue;
+        fprintf(out, "%s--%s", between, o->name);
+        if (o->letter) fprintf(out, " | -%c", o->letter);
+        between = " | ";
+    }
+}
+
 void help_bash_completion(FILE *out)
 {
     fprintf(out,
@@ -219,8 +234,11 @@ void help_bash_completion(FILE *out)
                  "    case $previous in\n"
                  "        --format) words=$formats ;;\n"
                  "        --completion) words=bash ;;\n"
-                 "        --set | --threads) return ;;\n"
-                 "        -o | --output) words='' ;;\n"
+                 "        ");
+    completion_values(out, false);
+    fprintf(out, ") return ;;\n        ");
+    completion_values(out, true);
+    fprintf(out, ") words='' ;;\n"
                  "    esac\n"
                  "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
                  "    if ((${#COMPREPLY[@]} == 0 && COMP_CWORD > 1)); then\n"

@@ -1,7 +1,6 @@
 #include "cli/options.h"
 
 #include "cli/report.h"
-#include "cli/suggest.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -11,9 +10,45 @@
 static const option_info table[OPTION_COUNT] = {
     [OPTION_OUTPUT] = {'o', "output", "FILE",
                        "write to FILE, which appears whole or not at all, not to standard output"},
+    [OPTION_PLOT] = {'\0', "plot", "FILE",
+                     "draw a picture, too: FILE ends in .svg, .png or .pdf (takes gnuplot)"},
     [OPTION_FORMAT] = {'\0', "format", "FORMAT", "how the output is written"},
     [OPTION_SET] = {'\0', "set", "KEY=VALUE",
                     "override a scenario key; VALUE is written as in TOML; may be repeated"},
+    [OPTION_INCIDENCE] = {'\0', "incidence", "ANGLES",
+                          "curves in the plane of incidence, in deg from the normal, as 0,30,60"},
+    [OPTION_HEMISPHERE] = {'\0', "hemisphere", "ANGLES",
+                           "maps over the whole hemisphere at these angles of incidence, deg"},
+    [OPTION_GEOMETRY] = {'\0', "geometry", "FILE",
+                         "values at the angles in FILE: a table with the columns theta_i_deg, "
+                         "phi_i_deg, theta_r_deg, phi_r_deg"},
+    [OPTION_DHR] = {'\0', "dhr", NULL, "directional-hemispherical reflectance over incidence"},
+    [OPTION_AZIMUTH] = {'\0', "azimuth", "ANGLE",
+                        "azimuth of the incident light from the tangent, deg; default 0"},
+    [OPTION_STEP] = {'\0', "step", "ANGLE", "deg between directions; default 0.5, of maps 2"},
+    [OPTION_BAND] = {'\0', "band", "BAND",
+                     "take what the materials say of this band, as V or lsst_g"},
+    [OPTION_LOG] = {'\0', "log", NULL, "logarithmic scale in the picture"},
+    [OPTION_MODEL] = {'\0', "model", "LIST",
+                      "the models to fit: sums with commas between them, each of terms NAME or "
+                      "N*NAME"},
+    [OPTION_COLUMNS] = {'\0', "columns", "LIST",
+                        "where the columns stand, by number or name: theta_i=1,phi_i=2,theta_r=3,"
+                        "phi_r=4,f=5"},
+    [OPTION_SIGNED_ZENITH] = {'\0', "signed-zenith", NULL,
+                              "angles from the normal may be negative: the opposite azimuth"},
+    [OPTION_ANGLES] = {'\0', "angles", "UNIT",
+                       "unit of the angles in the file: deg, the default, "
+                       "or rad"},
+    [OPTION_FLOOR] = {'\0', "floor", "VALUE",
+                      "leave out rows with f at or below VALUE, 1/sr: the instrument saw nothing"},
+    [OPTION_MAX_ZENITH] = {'\0', "max-zenith", "ANGLE",
+                           "leave out measurements farther from the normal, deg; default 85"},
+    [OPTION_ANISOTROPIC] = {'\0', "anisotropic", NULL,
+                            "fit the slopes along and across the tangent apart"},
+    [OPTION_FLASH_ANGLE] =
+        {'\0', "flash-angle", "ANGLE",
+         "a flash: the mirrored Sun comes nearer to the observer, deg; default 1"},
     [OPTION_THREADS] = {'\0', "threads", "N",
                         "compute on N threads; 0, the default, means all processors"},
     [OPTION_QUIET] = {'q', "quiet", NULL,
@@ -26,7 +61,7 @@ static const option_info table[OPTION_COUNT] = {
 };
 
 /* Options of later versions: refused by name, so that nobody looks for a slip of the hand. */
-static const char *const planned[] = {"plot", "swap", "without"};
+static const char *const planned[] = {"swap", "without"};
 
 const option_info *option_get(option_id id)
 {
@@ -75,11 +110,15 @@ static glint_status apply(const reader *r, option_id id, const char *value)
 {
     options *out = r->out;
     out->given |= 1u << id;
+    out->values[id] = value;
+    if (value && !value[0] && strcmp(table[id].value, "FILE") == 0)
+        return error_say(r->error, GLINT_ARGUMENT, "--%s has an empty file name", table[id].name);
     switch (id) {
     case OPTION_OUTPUT:
-        if (!value[0])
-            return error_say(r->error, GLINT_ARGUMENT, "--output has an empty file name");
         out->output = value;
+        return GLINT_OK;
+    case OPTION_PLOT:
+        out->plot = value;
         return GLINT_OK;
     case OPTION_FORMAT:
         return read_format(value, r);
@@ -143,7 +182,7 @@ static glint_status refuse_name(const reader *r, const char *name, size_t n)
     size_t n_names = 0;
     for (int id = 0; id < OPTION_COUNT; id++)
         if (r->accepted >> id & 1u) names[n_names++] = table[id].name;
-    const char *near = suggest(wanted, names, n_names);
+    const char *near = glint_nearest_name(wanted, names, n_names);
     if (near)
         return error_say(r->error, GLINT_ARGUMENT, "unknown option '--%s'; did you mean '--%s'?",
                          wanted, near);
@@ -223,4 +262,41 @@ void options_free(options *o)
     free(o->overrides);
     free(o->operands);
     *o = (options){0};
+}
+
+glint_status options_numbers(const options *o, option_id id, double least, double below,
+                             double *out, size_t most, size_t *n, glint_error *error)
+{
+    const char *at = o->values[id];
+    *n = 0;
+    while (at) {
+        char *end;
+        errno = 0;
+        const double number = strtod(at, &end);
+        /* strtod takes leading blanks, "nan", "inf" and "0x10", too */
+        const bool decimal = end > at && strspn(at, "+-.0123456789eE") >= (size_t)(end - at);
+        const bool good =
+            decimal && (*end == ',' || !*end) && !errno && number >= least && number < below;
+        if (!good)
+            return error_say(error, GLINT_ARGUMENT,
+                             "--%s has '%s'; expected %s from %g to below %g", table[id].name,
+                             o->values[id], most > 1 ? "numbers such as 0,15,30," : "a number",
+                             least, below);
+        if (*n == most)
+            return error_say(error, GLINT_ARGUMENT, "--%s has '%s'; expected at most %zu number%s",
+                             table[id].name, o->values[id], most, most > 1 ? "s" : "");
+        out[(*n)++] = number;
+        at = *end ? end + 1 : NULL;
+    }
+    return GLINT_OK;
+}
+
+glint_status options_number(const options *o, option_id id, double least, double below, double *out,
+                            glint_error *error)
+{
+    size_t n;
+    double number;
+    const glint_status status = options_numbers(o, id, least, below, &number, 1, &n, error);
+    if (status == GLINT_OK && n == 1) *out = number;
+    return status;
 }

@@ -7,8 +7,25 @@
 /* An option: its row in the table, and its bit (1u << id) in the set that a command takes. */
 typedef enum option_id {
     OPTION_OUTPUT,
+    OPTION_PLOT,
     OPTION_FORMAT,
     OPTION_SET,
+    OPTION_INCIDENCE,
+    OPTION_HEMISPHERE,
+    OPTION_GEOMETRY,
+    OPTION_DHR,
+    OPTION_AZIMUTH,
+    OPTION_STEP,
+    OPTION_BAND,
+    OPTION_LOG,
+    OPTION_MODEL,
+    OPTION_COLUMNS,
+    OPTION_SIGNED_ZENITH,
+    OPTION_ANGLES,
+    OPTION_FLOOR,
+    OPTION_MAX_ZENITH,
+    OPTION_ANISOTROPIC,
+    OPTION_FLASH_ANGLE,
     OPTION_THREADS,
     OPTION_QUIET,
     OPTION_HELP,
@@ -37,14 +54,17 @@ const option_info *option_get(option_id id);
 
 /* A command line that has been read. The texts are borrowed from argv. */
 typedef struct options {
-    unsigned given;         /* bits of the options that stood on the line */
-    const char *output;     /* NULL: standard output */
-    const char *format;     /* NULL: the command's first */
-    const char *completion; /* the shell that --completion names */
-    int threads;            /* 0: all processors */
-    bool quiet;             /* nothing but errors on standard error */
-    const char **overrides; /* owned; "key=value" */
-    const char **operands;  /* owned; what is no option */
+    unsigned given; /* bits of the options that stood on the line */
+    const char
+        *values[OPTION_COUNT]; /* as written; of an option given twice the last; NULL: none */
+    const char *output;        /* NULL: standard output */
+    const char *plot;          /* NULL: no picture */
+    const char *format;        /* NULL: the command's first */
+    const char *completion;    /* the shell that --completion names */
+    int threads;               /* 0: all processors */
+    bool quiet;                /* nothing but errors on standard error */
+    const char **overrides;    /* owned; "key=value" */
+    const char **operands;     /* owned; what is no option */
     size_t n_overrides, n_operands;
 } options;
 
@@ -57,6 +77,15 @@ typedef struct options {
 glint_status options_read(int n, const char *const *words, unsigned accepted,
                           const char *const *formats, options *out, glint_error *error);
 void options_free(options *o);
+
+/* Reads the value of an option as numbers with commas between them, "0,15,30". below: the numbers
+ * are >= least and < below. most: room in out[]; *n: how many there are, 0 where the option was not
+ * given. Errors: GLINT_ARGUMENT. */
+glint_status options_numbers(const options *o, option_id id, double least, double below,
+                             double *out, size_t most, size_t *n, glint_error *error);
+/* The same of one number; *out is left alone where the option was not given. */
+glint_status options_number(const options *o, option_id id, double least, double below, double *out,
+                            glint_error *error);
 
 /* True when that option stood on the line. */
 static inline bool options_has(const options *o, option_id id)

@@ -1,8 +1,8 @@
 /* A rectangular box along the axes. */
 #include "base/vec.h"
-#include "facets/primitive_kinds.h"
+#include "facets/crinkle.h"
 
-enum { SIZE, CENTRE, MATERIAL, FACES, N_KEYS };
+enum { SIZE, CENTRE, MATERIAL, FACES, CRINKLE, N_KEYS };
 
 static const primitive_key keys[N_KEYS] = {
     [SIZE] = {.name = "size_m",
@@ -20,6 +20,7 @@ static const primitive_key keys[N_KEYS] = {
                 "all six",
          .kind = KEY_MATERIAL},
     [FACES] = {.name = "faces", .unit = "", .doc = "materials of single faces", .kind = KEY_FACES},
+    [CRINKLE] = CRINKLE_KEY,
 };
 
 static const char *const face_names[6] = {"+x", "-x", "+y", "-y", "+z", "-z"};
@@ -57,19 +58,35 @@ static void corners(const primitive_spec *spec, int axis, int sense, double out[
     }
 }
 
-static glint_status build(const primitive_spec *spec, int component, facet_list *out,
-                          glint_error *error)
+static glint_status add_face(const primitive_spec *spec, int face, int component, facet_list *out,
+                             crinkle_sums *sums, glint_error *error)
 {
     static const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0};
-    for (int face = 0; face < 6; face++) {
-        const int axis = face / 2, sense = face % 2 ? -1 : 1;
-        double vertices[4][3];
-        corners(spec, axis, sense, vertices);
-        const glint_status status = facet_list_add(out, vertices, 4, axis == 0 ? y : x,
-                                                   face_material(spec, face), component, error);
-        if (status) return status;
-    }
-    return GLINT_OK;
+    const int axis = face / 2, sense = face % 2 ? -1 : 1;
+    const double *tangent = axis == 0 ? y : x;
+    double vertices[4][3];
+    corners(spec, axis, sense, vertices);
+    if (spec->crinkle.facets_per_side == 0)
+        return facet_list_add(out, vertices, 4, tangent, face_material(spec, face), component,
+                              error);
+    rectangle r = {.material = face_material(spec, face), .back_material = PRIMITIVE_NO_MATERIAL};
+    copy3(vertices[0], r.corner_m);
+    sub3(vertices[1], vertices[0], r.first_m);
+    sub3(vertices[3], vertices[0], r.second_m);
+    copy3(tangent, r.tangent);
+    return rectangle_crinkle(&r, &spec->crinkle, (uint64_t)face, component, out, sums, error);
+}
+
+static glint_status build(const primitive_spec *spec, int component, facet_list *out,
+                          glint_errors *warnings, glint_error *error)
+{
+    (void)warnings;
+    crinkle_sums sums = {0};
+    glint_status status = GLINT_OK;
+    for (int face = 0; face < 6 && !status; face++)
+        status = add_face(spec, face, component, out, &sums, error);
+    if (!status) crinkle_report(spec, &sums);
+    return status;
 }
 
 static void centre(const primitive_spec *spec, double out[3])

@@ -173,8 +173,9 @@ static glint_status add_back(const primitive_spec *spec, const double tangent[3]
 }
 
 static glint_status build(const primitive_spec *spec, int component, facet_list *out,
-                          glint_error *error)
+                          glint_errors *warnings, glint_error *error)
 {
+    (void)warnings;
     double tangent[3];
     if (spec->given[TANGENT])
         copy3(spec->value[TANGENT], tangent);

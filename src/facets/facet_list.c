@@ -10,7 +10,17 @@ void facet_list_free(facet_list *list)
     if (!list) return;
     free(list->items);
     free(list->vertices);
+    free(list->normals);
+    free(list->surfaces);
     *list = (facet_list){0};
+}
+
+void facet_list_truncate(facet_list *list, int n, int n_vertices, int n_surfaces)
+{
+    assert(n <= list->n && n_vertices <= list->n_vertices && n_surfaces <= list->n_surfaces);
+    list->n = n;
+    list->n_vertices = n_vertices;
+    list->n_surfaces = n_surfaces;
 }
 
 /* The capacity for `needed` entries: at least doubled, so that appending costs O(1) on average. */
@@ -18,6 +28,21 @@ static int grown(int capacity, int needed)
 {
     const int twice = capacity > INT_MAX / 2 ? INT_MAX : 2 * capacity;
     return twice > needed ? twice : needed;
+}
+
+/* Room for `capacity` vertices, and for their normals where there are any. */
+static glint_status reserve_vertices(facet_list *list, int capacity, glint_error *error)
+{
+    double(*vertices)[3] = realloc(list->vertices, (size_t)capacity * sizeof *vertices);
+    if (!vertices) return error_no_memory(error);
+    list->vertices = vertices;
+    if (list->normals) {
+        double(*normals)[3] = realloc(list->normals, (size_t)capacity * sizeof *normals);
+        if (!normals) return error_no_memory(error);
+        list->normals = normals;
+    }
+    list->vertex_capacity = capacity;
+    return GLINT_OK;
 }
 
 glint_status facet_list_reserve(facet_list *list, int n_facets, int n_vertices, glint_error *error)
@@ -32,14 +57,9 @@ glint_status facet_list_reserve(facet_list *list, int n_facets, int n_vertices, 
         list->items = items;
         list->capacity = capacity;
     }
-    if (list->n_vertices + n_vertices > list->vertex_capacity) {
-        const int capacity = grown(list->vertex_capacity, list->n_vertices + n_vertices);
-        double(*vertices)[3] = realloc(list->vertices, (size_t)capacity * sizeof *vertices);
-        if (!vertices) return error_no_memory(error);
-        list->vertices = vertices;
-        list->vertex_capacity = capacity;
-    }
-    return GLINT_OK;
+    if (list->n_vertices + n_vertices <= list->vertex_capacity) return GLINT_OK;
+    return reserve_vertices(list, grown(list->vertex_capacity, list->n_vertices + n_vertices),
+                            error);
 }
 
 /* Unit normal and area of a polygon (Newell's method: half the sum of the cross products of
@@ -80,5 +100,42 @@ glint_status facet_list_add(facet_list *list, const double (*vertices)[3], int n
     memcpy(list->vertices + list->n_vertices, vertices, (size_t)n * sizeof *vertices);
     list->n_vertices += n;
     list->items[list->n++] = f;
+    return GLINT_OK;
+}
+
+glint_status facet_list_reserve_surfaces(facet_list *list, int n, glint_error *error)
+{
+    if (n > INT_MAX - list->n_surfaces) return error_no_memory(error);
+    if (list->n_surfaces + n <= list->surface_capacity) return GLINT_OK;
+    const int capacity = grown(list->surface_capacity, list->n_surfaces + n);
+    curved_surface *surfaces = realloc(list->surfaces, (size_t)capacity * sizeof *surfaces);
+    if (!surfaces) return error_no_memory(error);
+    list->surfaces = surfaces;
+    list->surface_capacity = capacity;
+    return GLINT_OK;
+}
+
+glint_status facet_list_add_surface(facet_list *list, const curved_surface *surface, int *number,
+                                    glint_error *error)
+{
+    const glint_status status = facet_list_reserve_surfaces(list, 1, error);
+    if (status) return status;
+    list->surfaces[list->n_surfaces++] = *surface;
+    *number = list->n_surfaces;
+    return GLINT_OK;
+}
+
+glint_status facet_list_smooth(facet_list *list, int k, int surface, const double (*normals)[3],
+                               glint_error *error)
+{
+    assert(k >= 0 && k < list->n && surface >= 1 && surface <= list->n_surfaces);
+    assert(list->surfaces[surface - 1].kind == SURFACE_SMOOTH);
+    if (!list->normals) {
+        list->normals = malloc((size_t)list->vertex_capacity * sizeof *list->normals);
+        if (!list->normals) return error_no_memory(error);
+    }
+    facet *f = &list->items[k];
+    f->surface = surface;
+    memcpy(list->normals + f->first_vertex, normals, (size_t)f->n_vertices * sizeof *normals);
     return GLINT_OK;
 }

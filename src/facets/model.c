@@ -1,6 +1,7 @@
 #include "facets/model.h"
 
 #include "base/vec.h"
+#include "facets/curved.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -45,16 +46,32 @@ static glint_status find_order(const facet_list *facets, int n_materials, int n_
     return ok ? GLINT_OK : error_no_memory(error);
 }
 
+/* Copies the surfaces, and makes room for the normals at the vertices where there are any. */
+static glint_status copy_surfaces(const facet_list *facets, facet_list *out, glint_error *error)
+{
+    const glint_status status = facet_list_reserve_surfaces(out, facets->n_surfaces, error);
+    if (status) return status;
+    out->n_surfaces = facets->n_surfaces;
+    if (out->n_surfaces > 0)
+        memcpy(out->surfaces, facets->surfaces, (size_t)out->n_surfaces * sizeof *out->surfaces);
+    if (!facets->normals) return GLINT_OK;
+    out->normals = calloc((size_t)out->vertex_capacity, sizeof *out->normals);
+    return out->normals ? GLINT_OK : error_no_memory(error);
+}
+
 /* Copies the facets and their vertices in that order. */
 static glint_status copy_in_order(const facet_list *facets, const int *order, facet_list *out,
                                   glint_error *error)
 {
-    const glint_status status = facet_list_reserve(out, facets->n, facets->n_vertices, error);
+    glint_status status = facet_list_reserve(out, facets->n, facets->n_vertices, error);
+    if (!status) status = copy_surfaces(facets, out, error);
     if (status) return status;
     for (int k = 0; k < facets->n; k++) {
         facet f = facets->items[order[k]];
-        memcpy(out->vertices + out->n_vertices, facets->vertices + f.first_vertex,
-               (size_t)f.n_vertices * sizeof *out->vertices);
+        const size_t size = (size_t)f.n_vertices * sizeof *out->vertices;
+        memcpy(out->vertices + out->n_vertices, facets->vertices + f.first_vertex, size);
+        if (out->normals)
+            memcpy(out->normals + out->n_vertices, facets->normals + f.first_vertex, size);
         f.first_vertex = out->n_vertices;
         out->n_vertices += f.n_vertices;
         out->items[out->n++] = f;
@@ -159,6 +176,19 @@ static glint_status find_same_bands(model *m, glint_error *error)
     return GLINT_OK;
 }
 
+static glint_status find_curved(model *m, glint_error *error)
+{
+    for (int s = 0; s < m->n_spans; s++) {
+        model_span *span = &m->spans[s];
+        const int *same = m->same_band + (size_t)span->material * (size_t)m->n_bands;
+        const glint_status status =
+            curved_span_make(&m->polygons, span->first, span->n, m->materials[span->material].bands,
+                             same, m->n_bands, &span->curved, error);
+        if (status) return status;
+    }
+    return GLINT_OK;
+}
+
 static void assert_indices(const facet_list *facets, int n_materials, int n_components)
 {
     for (int k = 0; k < facets->n; k++) {
@@ -187,6 +217,7 @@ glint_status model_compile(facet_list *facets, const model_material *materials, 
     if (!status) status = fill_arrays(out, error);
     if (!status) status = make_spans(out, error);
     if (!status) status = find_same_bands(out, error);
+    if (!status) status = find_curved(out, error);
     if (status)
         model_free(out);
     else
@@ -197,6 +228,8 @@ glint_status model_compile(facet_list *facets, const model_material *materials, 
 void model_free(model *m)
 {
     if (!m) return;
+    for (int s = 0; s < m->n_spans; s++)
+        curved_span_free(m->spans[s].curved);
     free(m->spans);
     free(m->arrays);
     free(m->same_band);
@@ -221,7 +254,11 @@ void model_sum(const model *m, const brdf_light *lights, const double *visible, 
                 continue;
             }
             memset(sum, 0, BRDF_TILE * sizeof *sum);
-            brdf_material_tile(&bands[b], &span->facets, &lights[span->component], seen, sum);
+            const brdf_light *light = &lights[span->component];
+            if (span->curved)
+                curved_span_tile(span->curved, b, &bands[b], &span->facets, light, seen, sum);
+            else
+                brdf_material_tile(&bands[b], &span->facets, light, seen, sum);
         }
     }
 }

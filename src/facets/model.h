@@ -17,11 +17,14 @@ typedef struct model_component {
     const char *name;
 } model_component;
 
+struct curved_span;
+
 /* Facets of one material in one component. */
 typedef struct model_span {
     int component, material;
-    int first, n;       /* facets of the model */
-    brdf_facets facets; /* borrowed from the model's arrays */
+    int first, n;               /* facets of the model */
+    brdf_facets facets;         /* borrowed from the model's arrays */
+    struct curved_span *curved; /* owned; NULL where every facet counts with its own normal */
 } model_span;
 
 /* Immutable after model_compile; shared by threads. */
@@ -44,7 +47,9 @@ glint_status model_compile(facet_list *facets, const model_material *materials, 
                            model *out, glint_error *error);
 void model_free(model *m);
 
-/* Sums g * area * visible over each span for one tile of BRDF_TILE direction pairs, m^2/sr.
+/* Sums g * area * visible over each span for one tile of BRDF_TILE direction pairs, m^2/sr. A facet
+ * that stands for a piece of a curved surface counts with all the normals of that piece where the
+ * material's lobe is narrow against them (curved.h).
  * lights: one per component, directions in that component's frame.
  * visible: n_facets x BRDF_TILE fractions in the order of the facets, or NULL for all 1.
  * x: n_bands x n_spans x BRDF_TILE, overwritten: lane k of span s in band b stands at

@@ -1,8 +1,8 @@
 /* A flat rectangle. */
 #include "base/vec.h"
-#include "facets/primitive_kinds.h"
+#include "facets/crinkle.h"
 
-enum { SIZE, CENTRE, NORMAL, TANGENT, MATERIAL, BACK_MATERIAL, N_KEYS };
+enum { SIZE, CENTRE, NORMAL, TANGENT, MATERIAL, BACK_MATERIAL, CRINKLE, N_KEYS };
 
 static const primitive_key keys[N_KEYS] = {
     [SIZE] = {.name = "size_m",
@@ -32,6 +32,7 @@ static const primitive_key keys[N_KEYS] = {
                        .unit = "",
                        .doc = "material of the back; absent: black, but it still casts shadows",
                        .kind = KEY_MATERIAL},
+    [CRINKLE] = CRINKLE_KEY,
 };
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
@@ -43,25 +44,42 @@ static glint_status check(const primitive_spec *spec, glint_errors *errors)
     return GLINT_OK;
 }
 
-static glint_status build(const primitive_spec *spec, int component, facet_list *out,
-                          glint_error *error)
+static glint_status build_crinkled(const primitive_spec *spec, const double corner[4][3],
+                                   const double tangent[3], int component, facet_list *out,
+                                   glint_error *error)
 {
+    rectangle r = {.material = spec->material[MATERIAL],
+                   .back_material = spec->material[BACK_MATERIAL]};
+    copy3(corner[0], r.corner_m);
+    sub3(corner[1], corner[0], r.first_m);
+    sub3(corner[3], corner[0], r.second_m);
+    copy3(tangent, r.tangent);
+    crinkle_sums sums = {0};
+    const glint_status status =
+        rectangle_crinkle(&r, &spec->crinkle, 0, component, out, &sums, error);
+    if (!status) crinkle_report(spec, &sums);
+    return status;
+}
+
+static glint_status build(const primitive_spec *spec, int component, facet_list *out,
+                          glint_errors *warnings, glint_error *error)
+{
+    (void)warnings;
     double n[3], t[3], b[3];
     unit3(spec->value[NORMAL], n);
     perp3(spec->value[TANGENT], n, t);
     cross3(n, t, b);
     /* Corners in the order that runs from t to b, which is anticlockwise about n = t x b. */
     static const double corner[4][2] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
-    double front[4][3], back[4][3];
+    double front[4][3];
     for (int k = 0; k < 4; k++) {
         add_scaled3(spec->value[CENTRE], corner[k][0] * spec->value[SIZE][0], t, front[k]);
         add_scaled3(front[k], corner[k][1] * spec->value[SIZE][1], b, front[k]);
-        copy3(front[k], back[3 - k]);
     }
-    const glint_status status =
-        facet_list_add(out, front, 4, t, spec->material[MATERIAL], component, error);
-    if (status || spec->material[BACK_MATERIAL] == PRIMITIVE_NO_MATERIAL) return status;
-    return facet_list_add(out, back, 4, t, spec->material[BACK_MATERIAL], component, error);
+    if (spec->crinkle.facets_per_side > 0)
+        return build_crinkled(spec, front, t, component, out, error);
+    return add_two_sided(out, front, 4, t, spec->material[MATERIAL], spec->material[BACK_MATERIAL],
+                         component, error);
 }
 
 static void centre(const primitive_spec *spec, double out[3])

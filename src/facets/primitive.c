@@ -12,7 +12,9 @@
 #include <stdlib.h>
 
 static const primitive_kind *const table[] = {
-    &primitive_plate, &primitive_facet, &primitive_box, &primitive_prism, &primitive_sphere,
+    &primitive_plate,   &primitive_facet,    &primitive_box,  &primitive_prism,
+    &primitive_sphere,  &primitive_cylinder, &primitive_cone, &primitive_disc,
+    &primitive_annulus, &primitive_dish,     &primitive_wing, &primitive_boom,
 };
 
 const primitive_kind *primitive_kind_at(size_t k)
@@ -52,8 +54,12 @@ void primitive_spec_free(primitive_spec *spec)
 {
     if (!spec) return;
     free(spec->points);
+    free(spec->path);
+    free(spec->names);
     spec->points = NULL;
-    spec->n_points = 0;
+    spec->path = NULL;
+    spec->names = NULL;
+    spec->n_points = spec->n_names = 0;
 }
 
 /* --- checks --- */
@@ -65,6 +71,7 @@ static int number_count(const primitive_key *key)
     case KEY_NUMBER:
     case KEY_COUNT:
     case KEY_SWITCH:
+    case KEY_WORD:
         return 1;
     case KEY_VECTOR:
         return key->length;
@@ -73,6 +80,9 @@ static int number_count(const primitive_key *key)
     case KEY_POINTS:
     case KEY_MATERIAL:
     case KEY_FACES:
+    case KEY_PATH:
+    case KEY_NAMES:
+    case KEY_CRINKLE:
         break;
     }
     return 0;
@@ -83,6 +93,7 @@ static param_info range_of(const primitive_key *key)
 {
     if (key->kind == KEY_DIRECTION)
         return (param_info){.name = key->name, .min = -HUGE_VAL, .max = HUGE_VAL};
+    if (key->kind == KEY_WORD) return (param_info){.name = key->name, .max = key->n_words - 1};
     return (param_info){.name = key->name,
                         .unit = key->unit,
                         .min = key->min,
@@ -93,7 +104,8 @@ static param_info range_of(const primitive_key *key)
 static bool is_given(const primitive_spec *spec, int k)
 {
     return spec->given[k] || spec->material[k] != PRIMITIVE_NO_MATERIAL ||
-           (spec->kind->keys[k].kind == KEY_POINTS && spec->points);
+           (spec->kind->keys[k].kind == KEY_POINTS && spec->points) ||
+           (spec->kind->keys[k].kind == KEY_PATH && spec->path);
 }
 
 static glint_status out_of_range(const primitive_spec *spec, int k, const char *name, double value,
@@ -126,7 +138,7 @@ static glint_status check_numbers(const primitive_spec *spec, int k, glint_error
         const double value = spec->value[k][j];
         if (!param_accepts(&range, value))
             status = out_of_range(spec, k, name, value, errors);
-        else if (key->kind == KEY_COUNT && value != floor(value))
+        else if ((key->kind == KEY_COUNT || key->kind == KEY_WORD) && value != floor(value))
             status = errors_add(errors, GLINT_INPUT, spec->key_place[k],
                                 "%s is %.10g; expected a whole number", name, value);
     }
@@ -154,6 +166,19 @@ static glint_status check_points(const primitive_spec *spec, int k, glint_errors
     return status;
 }
 
+static glint_status check_crinkle(const primitive_spec *spec, int k, glint_errors *errors)
+{
+    static const param_info SIDE = {"facets_per_side", "", "", 2, CRINKLE_MAX, PARAM_REQUIRED, 0};
+    static const param_info TILT = {"tilt_rms_deg", "deg",         "", 0, CRINKLE_MOST_TILT_DEG,
+                                    PARAM_REQUIRED, PARAM_MIN_OPEN};
+    const double side = spec->crinkle.facets_per_side, tilt_deg = spec->crinkle.tilt_rms_rad / DEG;
+    if (param_accepts(&SIDE, side) && param_accepts(&TILT, tilt_deg)) return GLINT_OK;
+    return errors_add(errors, GLINT_INPUT, spec->key_place[k],
+                      "crinkle has %g facets per side tilted by %.10g deg rms; expected between %g "
+                      "and %g, tilted by more than 0 and at most %g deg",
+                      side, tilt_deg, SIDE.min, SIDE.max, TILT.max);
+}
+
 static glint_status check_key(const primitive_spec *spec, int k, glint_errors *errors)
 {
     const primitive_key *key = &spec->kind->keys[k];
@@ -162,7 +187,9 @@ static glint_status check_key(const primitive_spec *spec, int k, glint_errors *e
         return errors_add(errors, GLINT_INPUT, spec->where, "%s is missing: %s", key->name,
                           key->doc);
     }
-    return key->kind == KEY_POINTS ? check_points(spec, k, errors) : check_numbers(spec, k, errors);
+    if (key->kind == KEY_POINTS) return check_points(spec, k, errors);
+    if (key->kind == KEY_CRINKLE) return check_crinkle(spec, k, errors);
+    return check_numbers(spec, k, errors);
 }
 
 bool primitive_key_sound(const primitive_spec *spec, int k)
@@ -215,12 +242,34 @@ glint_status primitive_check(const primitive_spec *spec, glint_errors *errors)
     return own ? own : status;
 }
 
+/* --- building --- */
+
+glint_status add_two_sided(facet_list *out, const double (*vertices)[3], int n,
+                           const double tangent[3], int material, int back_material, int component,
+                           glint_error *error)
+{
+    glint_status status = facet_list_add(out, vertices, n, tangent, material, component, error);
+    if (status || back_material == PRIMITIVE_NO_MATERIAL) return status;
+    double(*back)[3] = malloc((size_t)n * sizeof *back);
+    if (!back) return error_no_memory(error);
+    for (int k = 0; k < n; k++)
+        copy3(vertices[n - 1 - k], back[k]);
+    status = facet_list_add(out, back, n, tangent, back_material, component, error);
+    free(back);
+    return status;
+}
+
 /* --- rotation and copies --- */
 
 /* A movement of points: p -> about + R (p - about). R is a rotation or a reflection. */
 typedef struct movement {
     double r[9], about[3];
 } movement;
+
+static bool is_smooth(const facet_list *list, const facet *f)
+{
+    return f->surface && list->surfaces[f->surface - 1].kind == SURFACE_SMOOTH;
+}
 
 static void move_point(const movement *m, double p[3])
 {
@@ -230,91 +279,122 @@ static void move_point(const movement *m, double p[3])
     add3(m->about, d, p);
 }
 
-static void move_facets(const movement *m, facet_list *list, int first, int n)
+/* A run of facets with the surfaces that they alone are pieces of. */
+typedef struct block {
+    int first, n, first_surface, n_surfaces;
+} block;
+
+static void move_block(const movement *m, facet_list *list, block b)
 {
-    for (int k = first; k < first + n; k++) {
+    for (int k = b.first; k < b.first + b.n; k++) {
         facet *f = &list->items[k];
         mat_vec(m->r, f->normal, f->normal);
         mat_vec(m->r, f->tangent, f->tangent);
-        for (int v = 0; v < f->n_vertices; v++)
-            move_point(m, list->vertices[f->first_vertex + v]);
+        for (int v = f->first_vertex; v < f->first_vertex + f->n_vertices; v++) {
+            move_point(m, list->vertices[v]);
+            if (is_smooth(list, f)) mat_vec(m->r, list->normals[v], list->normals[v]);
+        }
+    }
+    for (int s = b.first_surface; s < b.first_surface + b.n_surfaces; s++) {
+        move_point(m, list->surfaces[s].centre_m);
+        mat_vec(m->r, list->surfaces[s].axis, list->surfaces[s].axis);
     }
 }
 
-/* Appends the n facets from `first` once more; room for them was made. */
-static void copy_facets(facet_list *list, int first, int n)
+/* Appends a block once more; room for it was made. Returns the copy. */
+static block copy_block(facet_list *list, block b)
 {
-    for (int k = first; k < first + n; k++) {
+    const block copy = {list->n, b.n, list->n_surfaces, b.n_surfaces};
+    const size_t size = sizeof *list->vertices;
+    for (int k = b.first; k < b.first + b.n; k++) {
         facet f = list->items[k];
-        memcpy(list->vertices + list->n_vertices, list->vertices + f.first_vertex,
-               (size_t)f.n_vertices * sizeof *list->vertices);
+        const size_t n = (size_t)f.n_vertices;
+        memcpy(list->vertices + list->n_vertices, list->vertices + f.first_vertex, n * size);
+        if (is_smooth(list, &f))
+            memcpy(list->normals + list->n_vertices, list->normals + f.first_vertex, n * size);
         f.first_vertex = list->n_vertices;
+        if (f.surface) f.surface += copy.first_surface - b.first_surface;
         list->n_vertices += f.n_vertices;
         list->items[list->n++] = f;
+    }
+    for (int s = b.first_surface; s < b.first_surface + b.n_surfaces; s++)
+        list->surfaces[list->n_surfaces++] = list->surfaces[s];
+    return copy;
+}
+
+static void reverse_points(double (*v)[3], int n)
+{
+    for (int a = 0, b = n - 1; a < b; a++, b--) {
+        double swap[3];
+        copy3(v[a], swap), copy3(v[b], v[a]), copy3(swap, v[b]);
     }
 }
 
 /* A reflection turns anticlockwise into clockwise: the vertices run backwards to make up for it. */
-static void reverse_vertices(facet_list *list, int first, int n)
+static void reverse_vertices(facet_list *list, block b)
 {
-    for (int k = first; k < first + n; k++) {
-        double(*v)[3] = list->vertices + list->items[k].first_vertex;
-        for (int a = 0, b = list->items[k].n_vertices - 1; a < b; a++, b--) {
-            double swap[3];
-            copy3(v[a], swap), copy3(v[b], v[a]), copy3(swap, v[b]);
-        }
+    for (int k = b.first; k < b.first + b.n; k++) {
+        const facet *f = &list->items[k];
+        reverse_points(list->vertices + f->first_vertex, f->n_vertices);
+        if (is_smooth(list, f)) reverse_points(list->normals + f->first_vertex, f->n_vertices);
     }
 }
 
-static void rotate_about_centre(const primitive_spec *spec, facet_list *list, int first, int n)
+static void rotate_about_centre(const primitive_spec *spec, facet_list *list, block b)
 {
     movement m;
     double axis[3];
     unit3(spec->rotation_axis, axis);
     mat_turn(axis, spec->rotation_rad, m.r);
     spec->kind->centre(spec, m.about);
-    move_facets(&m, list, first, n);
+    move_block(&m, list, b);
 }
 
-static void repeat_facets(const primitive_spec *spec, facet_list *list, int first, int n)
+static void repeat_block(const primitive_spec *spec, facet_list *list, block b)
 {
     movement m = {.about = {0, 0, 0}};
     double axis[3];
     unit3(spec->repeat_axis, axis);
     for (int k = 1; k < spec->repeat_count; k++) {
-        copy_facets(list, first, n);
         mat_turn(axis, k * spec->repeat_step_rad, m.r);
-        move_facets(&m, list, first + k * n, n);
+        move_block(&m, list, copy_block(list, b));
     }
 }
 
-static void mirror_facets(int plane, facet_list *list, int first, int n)
+static void mirror_block(int plane, facet_list *list, block b)
 {
     movement m = {.about = {0, 0, 0}};
     mat_identity(m.r);
     m.r[4 * (plane - 1)] = -1.0;
-    copy_facets(list, first, n);
-    move_facets(&m, list, first + n, n);
-    reverse_vertices(list, first + n, n);
+    const block copy = copy_block(list, b);
+    move_block(&m, list, copy);
+    reverse_vertices(list, copy);
 }
 
-/* Makes the copies of the facets from `first` to the end of the list. */
-static glint_status add_copies(const primitive_spec *spec, facet_list *list, int first,
+/* The facets and surfaces of the list from these on. */
+static block block_from(const facet_list *list, int first, int first_surface)
+{
+    return (block){first, list->n - first, first_surface, list->n_surfaces - first_surface};
+}
+
+/* Makes the copies of the block, which stands at the end of the list. */
+static glint_status add_copies(const primitive_spec *spec, facet_list *list, block b,
                                glint_error *error)
 {
-    const int n = list->n - first;
-    const int n_vertices = list->n_vertices - list->items[first].first_vertex;
+    const int n_vertices = list->n_vertices - list->items[b.first].first_vertex;
     const long long copies = (long long)spec->repeat_count * (spec->mirror ? 2 : 1);
-    if (copies * n > PRIMITIVE_MAX_FACETS)
+    if (copies * b.n > PRIMITIVE_MAX_FACETS)
         return error_set(error, GLINT_INPUT, spec->where,
                          "this %s has %lld facets with its copies; expected at most %d",
-                         spec->kind->name, copies * n, PRIMITIVE_MAX_FACETS);
+                         spec->kind->name, copies * b.n, PRIMITIVE_MAX_FACETS);
     if ((copies - 1) * n_vertices > INT_MAX) return error_no_memory(error);
-    const glint_status status =
-        facet_list_reserve(list, (int)(copies - 1) * n, (int)((copies - 1) * n_vertices), error);
+    glint_status status =
+        facet_list_reserve(list, (int)(copies - 1) * b.n, (int)((copies - 1) * n_vertices), error);
+    if (!status)
+        status = facet_list_reserve_surfaces(list, (int)(copies - 1) * b.n_surfaces, error);
     if (status) return status;
-    repeat_facets(spec, list, first, n);
-    if (spec->mirror) mirror_facets(spec->mirror, list, first, list->n - first);
+    repeat_block(spec, list, b);
+    if (spec->mirror) mirror_block(spec->mirror, list, block_from(list, b.first, b.first_surface));
     return GLINT_OK;
 }
 
@@ -324,15 +404,15 @@ glint_status primitive_add(const primitive_spec *spec, int component, facet_list
     assert(spec->mirror >= 0 && spec->mirror <= 3);
     glint_status status = primitive_check(spec, errors);
     if (status) return status;
-    const int first = out->n, first_vertex = out->n_vertices;
-    glint_error error;
-    status = spec->kind->build(spec, component, out, &error);
+    const int first = out->n, first_vertex = out->n_vertices, first_surface = out->n_surfaces;
+    glint_error error = {0};
+    status = spec->kind->build(spec, component, out, errors, &error);
     if (!status) {
-        if (spec->has_rotation) rotate_about_centre(spec, out, first, out->n - first);
-        status = add_copies(spec, out, first, &error);
+        const block b = block_from(out, first, first_surface);
+        if (spec->has_rotation) rotate_about_centre(spec, out, b);
+        status = add_copies(spec, out, b, &error);
     }
     if (!status) return GLINT_OK;
-    out->n = first;
-    out->n_vertices = first_vertex;
+    facet_list_truncate(out, first, first_vertex, first_surface);
     return errors_take(errors, &error, spec->where);
 }

@@ -50,7 +50,7 @@ static glint_status check(const primitive_spec *spec, glint_errors *errors)
 typedef struct sphere_builder {
     const double *centre_m;
     double radius_m;
-    int material, component;
+    int material, component, surface;
     facet_list *out;
     glint_error *error;
 } sphere_builder;
@@ -69,7 +69,10 @@ static glint_status add_triangle(const sphere_builder *s, const double a[3], con
     add_scaled3(s->centre_m, s->radius_m, a, vertices[0]);
     add_scaled3(s->centre_m, s->radius_m, b, vertices[1]);
     add_scaled3(s->centre_m, s->radius_m, c, vertices[2]);
-    return facet_list_add(s->out, vertices, 3, east, s->material, s->component, s->error);
+    const glint_status status =
+        facet_list_add(s->out, vertices, 3, east, s->material, s->component, s->error);
+    if (!status) s->out->items[s->out->n - 1].surface = s->surface;
+    return status;
 }
 
 /* Point of the unit sphere midway between two others: the same to the last bit from either side. */
@@ -114,17 +117,23 @@ static glint_status divide_face(const sphere_builder *s, int a, int b, int c, in
 }
 
 static glint_status build(const primitive_spec *spec, int component, facet_list *out,
-                          glint_error *error)
+                          glint_errors *warnings, glint_error *error)
 {
+    (void)warnings;
     const int n = (int)spec->value[FACETS][0];
     int levels = 0;
     for (int k = 20; k < n; k *= 4)
         levels++;
+    curved_surface sphere = {.kind = SURFACE_SPHERE, .radius_m = spec->value[RADIUS][0]};
+    copy3(spec->value[CENTRE], sphere.centre_m);
+    int surface = 0;
     glint_status status = facet_list_reserve(out, n, 3 * n, error);
+    if (!status) status = facet_list_add_surface(out, &sphere, &surface, error);
     const sphere_builder s = {spec->value[CENTRE],
                               spec->value[RADIUS][0],
                               spec->material[MATERIAL],
                               component,
+                              surface,
                               out,
                               error};
     for (int a = 0; a < 12 && !status; a++)

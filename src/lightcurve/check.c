@@ -1,8 +1,11 @@
 /* check.c: describes a scenario or a model without computing a curve. */
 #include "base/constants.h"
 #include "base/text.h"
+#include "brdf/dhr.h"
+#include "brdf/table.h"
 #include "lightcurve/columns.h"
 #include "lightcurve/facts.h"
+#include "scenario/read_material.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,8 +24,9 @@ static void report_time(const glint_scenario *s, text *t)
     if (s->clock.n_leaps)
         text_printf(t, "            with %d leap second%s on the way\n", s->clock.n_leaps,
                     s->clock.n_leaps > 1 ? "s" : "");
-    text_printf(t, "observer    %s%slatitude %.6g deg, longitude %.6g deg, height %g m; nothing below "
-                   "%g deg\n",
+    text_printf(t,
+                "observer    %s%slatitude %.6g deg, longitude %.6g deg, height %g m; nothing below "
+                "%g deg\n",
                 s->site_name, s->site_name[0] ? ": " : "", s->site.latitude / DEG,
                 s->site.longitude / DEG, s->site.height_m, s->min_elevation / DEG);
     char *line = fact_orbit(s);
@@ -83,8 +87,44 @@ static void report_lobe(const brdf_lobe *lobe, text *t)
     if (lobe->weight != 1) text_printf(t, "%g x ", lobe->weight);
     text_add(t, lobe->model->name);
     for (int k = 0; k < lobe->model->n_params; k++)
-        if (!isnan(lobe->params[k]))
+        if (lobe->model->params[k].flags & PARAM_ROWS)
+            text_printf(t, " %s=(%d x %d)", lobe->model->params[k].name, lobe->arrays[k].rows,
+                        lobe->arrays[k].columns);
+        else if (!isnan(lobe->params[k]))
             text_printf(t, " %s=%g", lobe->model->params[k].name, lobe->params[k]);
+}
+
+/* What the measured lobes of a material rest on. */
+static void report_tables(const brdf_material *material, text *t)
+{
+    for (int k = 0; k < material->n_lobes; k++)
+        if (material->lobes[k].model->flags & BRDF_MEASURED)
+            table_report(&material->lobes[k], "              ", t);
+}
+
+/* Directional-hemispherical reflectance at three incidences from one azimuth. */
+static void reflectances(const brdf_material *material, double phi_i, double dhr[3])
+{
+    static const double THETA_DEG[3] = {0, 30, 60};
+    for (int k = 0; k < 3; k++) {
+        dhr[k] = 0;
+        /* short of the tolerance, the best value found serves as well */
+        (void)brdf_dhr(material, THETA_DEG[k] * DEG, phi_i, 1e-5, &dhr[k], NULL, NULL);
+    }
+}
+
+static void report_reflectance(const brdf_material *material, text *t)
+{
+    double along[3], across[3];
+    reflectances(material, 0, along);
+    reflectances(material, PI / 2, across);
+    bool differs = false;
+    for (int k = 0; k < 3; k++)
+        differs = differs || fabs(along[k] - across[k]) > 5e-4; /* as printed */
+    text_printf(t, "              reflects %.3f, %.3f, %.3f of the light from 0, 30, 60 deg%s",
+                along[0], along[1], along[2], differs ? " along the tangent" : "");
+    if (differs) text_printf(t, ", %.3f, %.3f, %.3f across it", across[0], across[1], across[2]);
+    text_char(t, '\n');
 }
 
 static void report_materials(const glint_scenario *s, text *t)
@@ -105,6 +145,8 @@ static void report_materials(const glint_scenario *s, text *t)
                 report_lobe(&sat->materials[m].bands[b].lobes[l], t);
             }
             text_char(t, '\n');
+            report_tables(&sat->materials[m].bands[b], t);
+            report_reflectance(&sat->materials[m].bands[b], t);
         }
     }
 }
@@ -149,25 +191,74 @@ static glint_status describe(const glint_scenario *s, bool is_model, text *t, gl
     return GLINT_OK;
 }
 
-/* Whether the file holds a model; a file that cannot be read says so when it is read for good. */
-static bool is_model_file(const char *path)
+/* What a file holds. */
+typedef enum file_kind { FILE_SCENARIO, FILE_MODEL, FILE_MATERIALS } file_kind;
+
+/* A file that cannot be read counts as a scenario and says so when it is read for good. */
+static file_kind kind_of_file(const char *path)
 {
     toml_document *document;
-    if (toml_read(path, PLACE_NONE, &document, NULL)) return false;
-    const bool is_model = scenario_is_model(document);
+    if (toml_read(path, PLACE_NONE, &document, NULL)) return FILE_SCENARIO;
+    file_kind kind = FILE_SCENARIO;
+    if (scenario_is_model(document))
+        kind = toml_child(&document->root, "component") ? FILE_MODEL : FILE_MATERIALS;
     toml_free(document);
-    return is_model;
+    return kind;
+}
+
+static glint_status describe_material(const char *path, const char *name, text *t,
+                                      glint_errors *errors)
+{
+    glint_material *material;
+    const glint_status status = glint_material_read(path, name, NULL, &material, errors);
+    if (status) return status;
+    const char *source = glint_material_source(material);
+    text_printf(t, "  material  %s", name);
+    if (source[0]) text_printf(t, "  (%s)", source);
+    text_printf(t, "\n            %s\n", glint_material_model(material));
+    report_tables(material_function(material), t);
+    report_reflectance(material_function(material), t);
+    glint_material_free(material);
+    return GLINT_OK;
+}
+
+/* A file of materials: each by itself, without a band. */
+static glint_status check_materials(const char *path, size_t n_overrides, char **report,
+                                    glint_errors *errors)
+{
+    if (n_overrides)
+        return errors_add(errors, GLINT_ARGUMENT, PLACE_NONE,
+                          "'%s' is a file of materials; expected a scenario or a model with --set",
+                          path);
+    const char **names;
+    size_t n;
+    glint_status worst = glint_material_names(path, &names, &n, errors);
+    if (worst) return worst;
+    text t = {0};
+    text_printf(&t, "%s: a file of %zu material%s\n", path, n, n == 1 ? "" : "s");
+    for (size_t k = 0; k < n; k++) {
+        const glint_status status = describe_material(path, names[k], &t, errors);
+        if (status > worst) worst = status;
+    }
+    glint_free(names);
+    if (!worst && t.failed) worst = errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+    if (worst)
+        text_free(&t);
+    else
+        *report = t.data;
+    return worst;
 }
 
 glint_status glint_check(const char *path, const char *const *overrides, size_t n_overrides,
                          char **report, glint_errors *errors)
 {
     *report = NULL;
-    const bool is_model = is_model_file(path);
+    const file_kind kind = kind_of_file(path);
+    if (kind == FILE_MATERIALS) return check_materials(path, n_overrides, report, errors);
+    const bool is_model = kind == FILE_MODEL;
     glint_scenario *s;
-    glint_status status =
-        is_model ? scenario_read_model(path, overrides, n_overrides, &s, errors)
-                 : glint_scenario_read(path, overrides, n_overrides, &s, errors);
+    glint_status status = is_model ? scenario_read_model(path, overrides, n_overrides, &s, errors)
+                                   : glint_scenario_read(path, overrides, n_overrides, &s, errors);
     if (status) return status;
     text t = {0};
     glint_error error;

@@ -19,8 +19,8 @@ static bool add(column_set *set, column_kind kind, int index, const char *name, 
     set->names[n] = whole;
     set->kinds[n] = kind;
     set->indices[n] = index;
-    set->columns[n] = (glint_column){whole, unit, description,
-                                     kind == COLUMN_UTC || kind == COLUMN_FLAGS};
+    set->columns[n] =
+        (glint_column){whole, unit, description, kind == COLUMN_UTC || kind == COLUMN_FLAGS};
     set->n++;
     return true;
 }
@@ -65,7 +65,8 @@ static bool add_shares(const glint_scenario *s, column_set *set)
 glint_status column_set_make(const glint_scenario *s, column_set *set, glint_error *error)
 {
     const model *m = &s->satellite.model;
-    const size_t most = 16 + 2 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components;
+    const size_t most =
+        16 + 2 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components;
     *set = (column_set){.columns = calloc(most, sizeof *set->columns),
                         .kinds = calloc(most, sizeof *set->kinds),
                         .indices = calloc(most, sizeof *set->indices),
@@ -103,19 +104,44 @@ bool column_value(const column_set *set, const glint_row *row, size_t column, do
     const int i = set->indices[column];
     switch (set->kinds[column]) {
     case COLUMN_UTC:
-    case COLUMN_FLAGS: return false;
-    case COLUMN_T: *value = row->t_s; return true;
-    case COLUMN_MAGNITUDE: *value = row->magnitude[i]; return row->flux_ratio[i] > 0;
-    case COLUMN_FLUX: *value = row->flux_ratio[i]; return true;
-    case COLUMN_RANGE: *value = row->range_m * 1e-3; return true;
-    case COLUMN_PHASE: *value = row->phase_angle_rad / DEG; return true;
-    case COLUMN_SUNLIT: *value = row->sunlit_fraction; return true;
-    case COLUMN_AZIMUTH: *value = row->azimuth_rad / DEG; return true;
-    case COLUMN_ELEVATION: *value = row->elevation_rad / DEG; return true;
-    case COLUMN_SUN_ELEVATION: *value = row->sun_elevation_rad / DEG; return true;
-    case COLUMN_AIRMASS: *value = row->airmass; return row->airmass > 0;
-    case COLUMN_SHARE_MATERIAL: *value = row->share_material[i]; return row->flux_ratio[0] > 0;
-    case COLUMN_SHARE_COMPONENT: *value = row->share_component[i]; return row->flux_ratio[0] > 0;
+    case COLUMN_FLAGS:
+        return false;
+    case COLUMN_T:
+        *value = row->t_s;
+        return true;
+    case COLUMN_MAGNITUDE:
+        *value = row->magnitude[i];
+        return row->flux_ratio[i] > 0;
+    case COLUMN_FLUX:
+        *value = row->flux_ratio[i];
+        return true;
+    case COLUMN_RANGE:
+        *value = row->range_m * 1e-3;
+        return true;
+    case COLUMN_PHASE:
+        *value = row->phase_angle_rad / DEG;
+        return true;
+    case COLUMN_SUNLIT:
+        *value = row->sunlit_fraction;
+        return true;
+    case COLUMN_AZIMUTH:
+        *value = row->azimuth_rad / DEG;
+        return true;
+    case COLUMN_ELEVATION:
+        *value = row->elevation_rad / DEG;
+        return true;
+    case COLUMN_SUN_ELEVATION:
+        *value = row->sun_elevation_rad / DEG;
+        return true;
+    case COLUMN_AIRMASS:
+        *value = row->airmass;
+        return row->airmass > 0;
+    case COLUMN_SHARE_MATERIAL:
+        *value = row->share_material[i];
+        return row->flux_ratio[0] > 0;
+    case COLUMN_SHARE_COMPONENT:
+        *value = row->share_component[i];
+        return row->flux_ratio[0] > 0;
     }
     return false;
 }

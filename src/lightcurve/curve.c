@@ -3,63 +3,42 @@
 #include "base/constants.h"
 #include "lightcurve/columns.h"
 #include "lightcurve/facts.h"
-#include "lightcurve/photometry.h"
+#include "lightcurve/tile.h"
 
 #include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "glint_version.h"
 
-/* Rows that are computed together, a multiple of TILE: as many as these, so that threads rarely wait for
- * each other, but fewer where rows are wide. */
+/* Rows that are computed together, a multiple of TILE: as many as these, so that threads rarely
+ * wait for each other, but fewer where rows are wide. */
 enum { BLOCK_MOST = 512 * TILE, BLOCK_NUMBERS = 1 << 22 };
-
-/* What one thread needs for a tile. */
-typedef struct worker {
-    geometry_worker geometry;
-    tile_geometry tile;
-    brdf_light *lights; /* owned; n_components */
-    double *x;          /* owned; n_bands x n_spans x TILE */
-} worker;
 
 struct glint_curve {
     const glint_scenario *s; /* borrowed */
     unsigned wanted;         /* of the geometry */
+    visibility *plan;        /* owned; NULL where no shadows are wanted or none can be */
     int n_threads;
-    worker *workers;  /* owned; n_threads */
-    frame_grid *grid; /* owned; covers grid_from_s to grid_to_s */
+    tile_worker *workers; /* owned; n_threads */
+    frame_grid *grid;     /* owned; covers grid_from_s to grid_to_s */
     double grid_from_s, grid_to_s;
-    size_t block; /* rows of a block */
-    int64_t next; /* first step of the next block */
+    size_t block;             /* rows of a block */
+    int64_t next;             /* first step of the next block */
     glint_row *rows, *chosen; /* owned; block */
     double *flux_ratio, *magnitude, *share_material, *share_component; /* owned */
     column_set columns;
     fact_list facts;
 };
 
-static void *aligned(size_t n, size_t size)
-{
-    const size_t bytes = (n * size + 63) / 64 * 64;
-    void *memory = aligned_alloc(64, bytes ? bytes : 64);
-    if (memory) memset(memory, 0, bytes ? bytes : 64);
-    return memory;
-}
-
 static bool make_workers(glint_curve *c)
 {
-    const model *m = &c->s->satellite.model;
     c->workers = calloc((size_t)c->n_threads, sizeof *c->workers);
     if (!c->workers) return false;
-    for (int i = 0; i < c->n_threads; i++) {
-        worker *w = &c->workers[i];
-        w->lights = aligned((size_t)m->n_components, sizeof *w->lights);
-        w->x = aligned((size_t)m->n_bands * (size_t)m->n_spans * TILE, sizeof *w->x);
-        w->geometry.component_gcrs =
-            calloc((size_t)m->n_components, sizeof *w->geometry.component_gcrs);
-        if (!w->lights || !w->x || !w->geometry.component_gcrs) return false;
-    }
+    for (int i = 0; i < c->n_threads; i++)
+        if (tile_worker_make(c->s, c->plan, &c->workers[i], NULL)) return false;
     return true;
 }
 
@@ -97,17 +76,25 @@ glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint
         return errors_add(errors, GLINT_ARGUMENT, PLACE_NONE,
                           "%d threads asked for; expected 1 to %d, or 0 for all processors",
                           threads, MOST_THREADS);
+    if (!scenario->has_satellite)
+        return errors_add(
+            errors, GLINT_ARGUMENT, PLACE_NONE,
+            "this scenario was read without a satellite that could shine; expected one "
+            "from glint_scenario_read");
     glint_curve *c = calloc(1, sizeof *c);
     if (!c) return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
     c->s = scenario;
     c->n_threads = threads > 0 ? threads : omp_get_num_procs();
     if (asks_for_height(scenario)) c->wanted |= GEOMETRY_HEIGHT;
     glint_error error = {0};
-    const glint_status status = column_set_make(scenario, &c->columns, &error);
+    glint_status status = column_set_make(scenario, &c->columns, &error);
     facts_of_run(scenario, &c->facts);
-    if (status || c->facts.failed || !make_workers(c) || !make_rows(c)) {
+    if (!status) status = tile_plan_shadows(scenario, &c->plan, &error);
+    if (!status && (c->facts.failed || !make_workers(c) || !make_rows(c)))
+        status = error_no_memory(&error);
+    if (status) {
         glint_curve_close(c);
-        return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+        return errors_take(errors, &error, PLACE_NONE);
     }
     *out = c;
     return GLINT_OK;
@@ -116,12 +103,10 @@ glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint
 void glint_curve_close(glint_curve *c)
 {
     if (!c) return;
-    for (int i = 0; c->workers && i < c->n_threads; i++) {
-        free(c->workers[i].lights);
-        free(c->workers[i].x);
-        free(c->workers[i].geometry.component_gcrs);
-    }
+    for (int i = 0; c->workers && i < c->n_threads; i++)
+        tile_worker_free(&c->workers[i]);
     free(c->workers);
+    visibility_free(c->plan);
     frame_grid_free(c->grid);
     free(c->rows);
     free(c->chosen);
@@ -144,8 +129,8 @@ double glint_curve_step_s(const glint_curve *c)
     return c->s->has_geometry ? 0 : c->s->step_s;
 }
 
-/* Has the frames of the block's times at hand. The grid is laid out for a few days at once, since its
- * nodes are dear. */
+/* Has the frames of the block's times at hand. The grid is laid out for a few days at once, since
+ * its nodes are dear. */
 static glint_status cover_block(glint_curve *c, int64_t n, glint_error *error)
 {
     static const double AHEAD_S = 4 * DAY_S;
@@ -165,26 +150,23 @@ static glint_status cover_block(glint_curve *c, int64_t n, glint_error *error)
     return GLINT_OK;
 }
 
-/* One tile of the block: geometry, sum, photometry. */
-static glint_status compute_tile(glint_curve *c, worker *w, int64_t first, int n, int64_t at,
+/* One tile of the block: geometry, visibility, sum, photometry. */
+static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, int n, int64_t at,
                                  glint_error *error)
 {
     const glint_scenario *s = c->s;
     const model *m = &s->satellite.model;
-    const glint_status status = geometry_fill(s, c->grid, c->wanted, first, n, &w->geometry,
-                                              &w->tile, w->lights, error);
+    const glint_status status =
+        geometry_fill(s, c->grid, c->wanted, first, n, &w->geometry, &w->tile, w->lights, error);
     if (status) return status;
-    if (w->tile.any_bright) model_sum(m, w->lights, NULL, w->x);
-    const photometry_rows rows = {c->rows + at, c->flux_ratio + at * s->n_bands,
-                                  c->magnitude + at * s->n_bands,
-                                  c->share_material + at * m->n_materials,
-                                  c->share_component + at * m->n_components};
-    photometry_fill(s, &w->tile, w->tile.any_bright ? w->x : NULL, &rows);
-    return GLINT_OK;
+    const photometry_rows rows = {
+        c->rows + at, c->flux_ratio + at * s->n_bands, c->magnitude + at * s->n_bands,
+        c->share_material + at * m->n_materials, c->share_component + at * m->n_components};
+    return tile_worker_sum(s, w, &rows, error);
 }
 
-/* All tiles of the block, over the threads; tiles are the same for any number of them. The error of the
- * earliest tile wins. */
+/* All tiles of the block, over the threads; tiles are the same for any number of them. The error of
+ * the earliest tile wins. */
 static glint_status compute_block(glint_curve *c, int64_t n, glint_error *error)
 {
     const int n_tiles = (int)((n + TILE - 1) / TILE);
@@ -195,7 +177,7 @@ static glint_status compute_block(glint_curve *c, int64_t n, glint_error *error)
         glint_error own = {0};
         const int64_t at = (int64_t)tile * TILE;
         const int rows = n - at < TILE ? (int)(n - at) : TILE;
-        worker *w = &c->workers[omp_get_thread_num()];
+        tile_worker *w = &c->workers[omp_get_thread_num()];
         const glint_status status = compute_tile(c, w, c->next + at, rows, at, &own);
         if (!status) continue;
 #pragma omp critical(glint_first_error)
@@ -216,8 +198,7 @@ static bool is_wanted(const glint_scenario *s, const glint_row *row)
     return s->rows == ROWS_VISIBLE || row->flags & GLINT_SITE_DARK;
 }
 
-glint_status glint_curve_next(glint_curve *c, const glint_row **rows, size_t *n,
-                              glint_error *error)
+glint_status glint_curve_next(glint_curve *c, const glint_row **rows, size_t *n, glint_error *error)
 {
     *rows = c->chosen;
     *n = 0;
@@ -256,6 +237,20 @@ bool glint_curve_fact(const glint_curve *c, size_t k, const char **key, const ch
     return true;
 }
 
+bool glint_curve_reads(const glint_curve *c, const char *path)
+{
+    struct stat wanted, own;
+    if (stat(path, &wanted) != 0) return false;
+    for (int i = 0; i <= c->s->n_documents; i++) {
+        const char *read =
+            i < c->s->n_documents ? c->s->documents[i]->path : c->s->expected.csv.path;
+        if (read && stat(read, &own) == 0 && own.st_dev == wanted.st_dev &&
+            own.st_ino == wanted.st_ino)
+            return true;
+    }
+    return false;
+}
+
 const char *glint_curve_scenario(const glint_curve *c)
 {
     return c->s->text;
@@ -278,10 +273,10 @@ bool glint_curve_value(const glint_curve *c, const glint_row *row, size_t column
 }
 
 size_t glint_curve_text(const glint_curve *c, const glint_row *row, size_t column,
-                        char text[GLINT_CELL_SIZE])
+                        char out[GLINT_CELL_SIZE])
 {
-    text[0] = '\0';
-    return column < c->columns.n ? column_text(&c->columns, row, column, text) : 0;
+    out[0] = '\0';
+    return column < c->columns.n ? column_text(&c->columns, row, column, out) : 0;
 }
 
 const char *glint_version(void)

@@ -71,6 +71,21 @@ static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t n)
     return hash;
 }
 
+/* Numbers that came from files of their own: measured tables, meshes. */
+static uint64_t hash_satellite(uint64_t hash, const satellite *sat, int n_bands)
+{
+    for (int m = 0; m < sat->n_materials; m++)
+        for (int b = 0; b < n_bands; b++)
+            for (int l = 0; l < sat->materials[m].bands[b].n_lobes; l++) {
+                const brdf_lobe *lobe = &sat->materials[m].bands[b].lobes[l];
+                if (lobe->numbers)
+                    hash = hash_bytes(hash, lobe->numbers, lobe->n_numbers * sizeof *lobe->numbers);
+            }
+    const facet_list *polygons = &sat->model.polygons;
+    return hash_bytes(hash, polygons->vertices,
+                      (size_t)polygons->n_vertices * sizeof *polygons->vertices);
+}
+
 /* Of all that decides the result: the files, what was set, the element set, the directions. */
 static uint64_t scenario_hash(const glint_scenario *s)
 {
@@ -79,12 +94,12 @@ static uint64_t scenario_hash(const glint_scenario *s)
         hash = hash_text(hash, s->documents[i]->text);
     for (size_t i = 0; i < s->n_overrides; i++)
         hash = hash_text(hash, s->overrides[i]);
+    hash = hash_satellite(hash, &s->satellite, s->n_bands);
     if (!s->has_geometry && s->orbit_source == ORBIT_TLE) {
-        const double elements[] = {s->tle.epoch_jd[0],    s->tle.epoch_jd[1],
-                                   s->tle.bstar,          s->tle.inclination,
-                                   s->tle.raan,           s->tle.eccentricity,
-                                   s->tle.argument_of_perigee, s->tle.mean_anomaly,
-                                   s->tle.mean_motion};
+        const double elements[] = {
+            s->tle.epoch_jd[0],         s->tle.epoch_jd[1],  s->tle.bstar,
+            s->tle.inclination,         s->tle.raan,         s->tle.eccentricity,
+            s->tle.argument_of_perigee, s->tle.mean_anomaly, s->tle.mean_motion};
         hash = hash_bytes(hash, elements, sizeof elements);
     }
     if (s->has_geometry) {
@@ -121,8 +136,7 @@ char *fact_orbit(const glint_scenario *s)
                     k->semi_major_axis_m * 1e-3, k->eccentricity, k->inclination / DEG);
         break;
     case ORBIT_GEOSTATIONARY:
-        text_printf(&out, "geostationary, longitude %.6g deg",
-                    s->geostationary_longitude / DEG);
+        text_printf(&out, "geostationary, longitude %.6g deg", s->geostationary_longitude / DEG);
         break;
     }
     return out.data;
@@ -163,22 +177,38 @@ static void add_time(const glint_scenario *s, fact_list *out)
     add(out, "eclipse", "WGS84 ellipsoid, uniform solar disc, no refraction in the atmosphere");
 }
 
-void facts_of_run(const glint_scenario *s, fact_list *out)
+static void add_origin(const glint_scenario *s, fact_list *out)
 {
     add(out, "glint_version", GLINT_VERSION_TEXT);
     if (s->title[0]) add(out, "title", "%s", s->title);
     add(out, "scenario_hash", "fnv1a64:%016llx", (unsigned long long)scenario_hash(s));
     for (size_t k = 0; k < s->n_overrides; k++)
         add(out, "set", "%s", s->overrides[k]);
+}
+
+void facts_of_orbit(const glint_scenario *s, fact_list *out)
+{
+    add_origin(s, out);
+    add_time(s, out);
+}
+
+void facts_of_run(const glint_scenario *s, fact_list *out)
+{
+    add_origin(s, out);
     add_bands(s, out);
     if (s->has_geometry)
         add(out, "geometry", "directions given in the body frame, the Sun at 1 au");
     else
         add_time(s, out);
-    add(out, "self_shadows", "none: shadows that parts cast on each other are neglected");
+    add(out, "self_shadows",
+        s->self_shadows == SHADOWS_NONE
+            ? "none: shadows that parts cast on each other are neglected"
+            : "exact: facets shine with the area that is both lit by the Sun and seen by the "
+              "observer");
     add(out, "solar_disc", "point: facets see the Sun's light from the centre of its disc");
     add(out, "earthshine", "none");
     add(out, "not_modelled",
-        "interreflection between parts, polarisation, transmission, thermal emission, moonlight%s",
+        "interreflection between parts, polarisation, transmission, thermal emission, moonlight, "
+        "the Moon's shadow%s",
         s->has_geometry ? "" : ", refraction of the line of sight");
 }

@@ -16,6 +16,8 @@ typedef struct fact_list {
 
 /* Everything that the header of a table says of the run. */
 void facts_of_run(const glint_scenario *s, fact_list *out);
+/* Of these, what concerns positions only. */
+void facts_of_orbit(const glint_scenario *s, fact_list *out);
 void fact_list_free(fact_list *list);
 /* The orbit in one line: its source, epoch, ...; from malloc, NULL when memory is out. */
 char *fact_orbit(const glint_scenario *s);

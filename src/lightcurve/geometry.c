@@ -6,18 +6,15 @@
 #include "orbit/moon.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-/* Rate of the Earth rotation angle, rad/s: Capitaine, Guinot, McCarthy 2000; IERS Conventions 2010,
- * eq. 5.15. */
-static const double ERA_RATE = TWO_PI * 1.00273781191135448 / DAY_S;
-
-/* The frames tau_s earlier, to first order in what moves slowly: the Earth turns back by its rotation
- * (about ITRS z instead of the CIP, which polar motion keeps within 3e-6 rad: 3e-11 rad over a second),
- * the Sun goes back along its path. */
+/* The frames tau_s earlier, to first order in what moves slowly: the Earth turns back by its
+ * rotation (about ITRS z instead of the CIP, which polar motion keeps within 3e-6 rad: 3e-11 rad
+ * over a second), the Sun goes back along its path. */
 static void frames_earlier(const frame_set *f, double tau_s, frame_set *out)
 {
     *out = *f;
-    const double c = cos(ERA_RATE * tau_s), s = sin(ERA_RATE * tau_s);
+    const double c = cos(EARTH_TURN_RAD_S * tau_s), s = sin(EARTH_TURN_RAD_S * tau_s);
     for (int i = 0; i < 3; i++) {
         out->itrs_gcrs[i] = c * f->itrs_gcrs[i] - s * f->itrs_gcrs[3 + i];
         out->itrs_gcrs[3 + i] = s * f->itrs_gcrs[i] + c * f->itrs_gcrs[3 + i];
@@ -25,7 +22,8 @@ static void frames_earlier(const frame_set *f, double tau_s, frame_set *out)
     }
 }
 
-/* The satellite's state when the light that arrives at t_s left it; leaves the frames of emission. */
+/* The satellite's state when the light that arrives at t_s left it; leaves the frames of emission.
+ */
 static glint_status solve_light_time(const glint_scenario *s, double t_s, double guess_s,
                                      orbit_cursor *cursor, sighting *out, frame_set *emission,
                                      glint_error *error)
@@ -65,7 +63,8 @@ glint_status sighting_at(const glint_scenario *s, const frame_grid *grid, double
     if (status) return status;
     if (!(out->range_m > 0.0))
         return error_set(error, GLINT_INPUT, PLACE_NONE,
-                         "at t_s = %.3f the satellite is at the observer; expected a distance", t_s);
+                         "at t_s = %.3f the satellite is at the observer; expected a distance",
+                         t_s);
     moment *m = &out->moment;
     m->t_s = t_s - out->light_time_s;
     scale3(out->sight_gcrs, -1.0, m->observer);
@@ -82,8 +81,7 @@ glint_status sighting_at(const glint_scenario *s, const frame_grid *grid, double
 
 /* Turns a direction of the vocabulary into a component's parent's axes. */
 static glint_status target_in_parent(const direction *target, const moment *m,
-                                     const double parent_gcrs[9], double out[3],
-                                     glint_error *error)
+                                     const double parent_gcrs[9], double out[3], glint_error *error)
 {
     double gcrs[3];
     const glint_status status = direction_at(target, m, gcrs, error);
@@ -91,10 +89,11 @@ static glint_status target_in_parent(const direction *target, const moment *m,
     return status;
 }
 
-/* Orientation of every component at one moment, parents first, from the body's. */
+/* Orientation of every component at one moment, parents first, from the body's; and the angle of
+ * its hinge, 0 without one (hinge_rad: NULL allowed). */
 static glint_status turn_components(const satellite *sat, const moment *m,
                                     const double body_gcrs[9], double (*component_gcrs)[9],
-                                    glint_error *error)
+                                    double *hinge_rad, glint_error *error)
 {
     for (int k = 0; k < sat->n_components; k++) {
         const int c = sat->order[k];
@@ -103,6 +102,7 @@ static glint_status turn_components(const satellite *sat, const moment *m,
             component->parent < 0 ? body_gcrs : component_gcrs[component->parent];
         if (!component->has_hinge) {
             memcpy(component_gcrs[c], parent, 9 * sizeof(double));
+            if (hinge_rad) hinge_rad[c] = 0;
             continue;
         }
         const hinge *h = &component->hinge;
@@ -111,10 +111,51 @@ static glint_status turn_components(const satellite *sat, const moment *m,
             const glint_status status = target_in_parent(&h->target, m, parent, target, error);
             if (status) return status;
         }
-        hinge_matrix(h, hinge_angle(h, m->t_s, h->drive == HINGE_TRACK ? target : NULL), turn);
+        const double angle = hinge_angle(h, m->t_s, h->drive == HINGE_TRACK ? target : NULL);
+        hinge_matrix(h, angle, turn);
+        if (hinge_rad) hinge_rad[c] = angle;
         mat_mul(turn, parent, component_gcrs[c]);
     }
     return GLINT_OK;
+}
+
+glint_status satellite_turn(const glint_scenario *s, const moment *m, double body_gcrs[9],
+                            double (*component_gcrs)[9], double *hinge_rad, glint_error *error)
+{
+    const glint_status status = attitude_at(&s->attitude, m, body_gcrs, error);
+    if (status) return status;
+    return turn_components(&s->satellite, m, body_gcrs, component_gcrs, hinge_rad, error);
+}
+
+/* Where every component is at one moment, parents first, in the frame that body_gcrs maps from. */
+static void place_components(const satellite *sat, const double body_gcrs[9],
+                             const double (*component_gcrs)[9], visibility_pose *poses)
+{
+    for (int k = 0; k < sat->n_components; k++) {
+        const int c = sat->order[k];
+        const scenario_component *component = &sat->components[c];
+        const int parent = component->parent;
+        double origin[3] = {0, 0, 0};
+        mat_transpose(component_gcrs[c], poses[c].body_component);
+        /* The hinge's origin is given in the parent's coordinates: its axes are the body's without
+         * one. */
+        if (component->has_hinge)
+            mat_tvec(parent < 0 ? body_gcrs : component_gcrs[parent], component->hinge.origin_m,
+                     origin);
+        if (parent >= 0) add3(origin, poses[parent].origin_m, origin);
+        copy3(origin, poses[c].origin_m);
+    }
+}
+
+/* Leaves directions and poses of lane k for the stage that finds out what is visible. */
+static void keep_for_visibility(const satellite *sat, const moment *m, const double body_gcrs[9],
+                                const geometry_worker *worker, int k, tile_geometry *out)
+{
+    copy3(m->sun, out->sun[k]);
+    copy3(m->observer, out->observer[k]);
+    if (worker->poses)
+        place_components(sat, body_gcrs, (const double(*)[9])worker->component_gcrs,
+                         worker->poses + (size_t)k * (size_t)sat->n_components);
 }
 
 /* Writes the Sun and the observer into lane k of every component's light. */
@@ -132,26 +173,26 @@ static void light_components(const satellite *sat, const moment *m,
     }
 }
 
-/* Elevation of a unit vector in the site's frame, rad; precise at the zenith too. */
-static double elevation_of(const double enu[3])
+/* The elevation is precise at the zenith too. */
+void sky_place(const glint_scenario *s, const frame_set *frames, const double gcrs[3],
+               double *azimuth, double *elevation)
 {
-    return atan2(enu[2], sqrt(enu[0] * enu[0] + enu[1] * enu[1]));
+    double itrs[3], enu[3];
+    mat_vec(frames->itrs_gcrs, gcrs, itrs);
+    mat_vec(s->site.enu_itrs, itrs, enu);
+    const double angle = atan2(enu[0], enu[1]);
+    const double turned = angle + TWO_PI; /* may round to a full turn: that is 0 */
+    *azimuth = angle >= 0 ? angle : turned < TWO_PI ? turned : 0;
+    *elevation = atan2(enu[2], sqrt(enu[0] * enu[0] + enu[1] * enu[1]));
 }
 
 static void fill_site(const glint_scenario *s, const sighting *seen, int k, tile_geometry *out)
 {
-    double itrs[3], enu[3], sun[3], distance_m;
-    mat_vec(seen->frames.itrs_gcrs, seen->sight_gcrs, itrs);
-    mat_vec(s->site.enu_itrs, itrs, enu);
-    const double azimuth = atan2(enu[0], enu[1]);
-    const double turned = azimuth + TWO_PI; /* may round to a full turn: that is 0 */
-    out->azimuth[k] = azimuth >= 0 ? azimuth : turned < TWO_PI ? turned : 0;
-    out->elevation[k] = elevation_of(enu);
+    double sun[3], distance_m, sun_azimuth;
+    sky_place(s, &seen->frames, seen->sight_gcrs, &out->azimuth[k], &out->elevation[k]);
     out->seen[k] = out->elevation[k] >= s->min_elevation;
     sun_from_point(&seen->frames, seen->site_gcrs_m, s->aberration, sun, &distance_m);
-    mat_vec(seen->frames.itrs_gcrs, sun, itrs);
-    mat_vec(s->site.enu_itrs, itrs, enu);
-    out->sun_elevation[k] = elevation_of(enu);
+    sky_place(s, &seen->frames, sun, &sun_azimuth, &out->sun_elevation[k]);
 }
 
 /* One row of a run with an orbit. */
@@ -159,8 +200,7 @@ static glint_status fill_row(const glint_scenario *s, const frame_grid *grid, un
                              double guess_s, int k, geometry_worker *worker, tile_geometry *out,
                              brdf_light *lights, sighting *seen, glint_error *error)
 {
-    glint_status status =
-        sighting_at(s, grid, out->t_s[k], guess_s, &worker->cursor, seen, error);
+    glint_status status = sighting_at(s, grid, out->t_s[k], guess_s, &worker->cursor, seen, error);
     if (status) return status;
     const moment *m = &seen->moment;
     const double *pole = m->itrs_gcrs + 6;
@@ -176,18 +216,17 @@ static glint_status fill_row(const glint_scenario *s, const frame_grid *grid, un
         earth_geodetic(itrs, &latitude, &longitude, &out->height_m[k]);
     }
     double body_gcrs[9];
-    status = attitude_at(&s->attitude, m, body_gcrs, error);
-    if (!status)
-        status = turn_components(&s->satellite, m, body_gcrs, worker->component_gcrs, error);
+    status = satellite_turn(s, m, body_gcrs, worker->component_gcrs, NULL, error);
     if (status) return status;
     light_components(&s->satellite, m, (const double(*)[9])worker->component_gcrs, k, lights);
+    keep_for_visibility(&s->satellite, m, body_gcrs, worker, k, out);
     return GLINT_OK;
 }
 
 /* One row of a run whose directions are given in the body frame: that frame stands for GCRS. */
 static glint_status fill_given_row(const glint_scenario *s, int64_t row, int k,
-                                   geometry_worker *worker, tile_geometry *out,
-                                   brdf_light *lights, glint_error *error)
+                                   geometry_worker *worker, tile_geometry *out, brdf_light *lights,
+                                   glint_error *error)
 {
     double body[9];
     moment m = {.t_s = out->t_s[k]};
@@ -199,10 +238,11 @@ static glint_status fill_given_row(const glint_scenario *s, int64_t row, int k,
     out->sunlit[k] = out->sun_weight[k] = 1;
     out->seen[k] = true;
     const glint_status status =
-        turn_components(&s->satellite, &m, body, worker->component_gcrs, error);
-    if (!status)
-        light_components(&s->satellite, &m, (const double(*)[9])worker->component_gcrs, k, lights);
-    return status;
+        turn_components(&s->satellite, &m, body, worker->component_gcrs, NULL, error);
+    if (status) return status;
+    light_components(&s->satellite, &m, (const double(*)[9])worker->component_gcrs, k, lights);
+    keep_for_visibility(&s->satellite, &m, body, worker, k, out);
+    return GLINT_OK;
 }
 
 /* Spare lanes get the last row's light, so that they hold usable numbers. */
@@ -245,4 +285,61 @@ glint_status geometry_fill(const glint_scenario *s, const frame_grid *grid, unsi
     }
     fill_spare_lanes(n, s->satellite.n_components, lights);
     return GLINT_OK;
+}
+
+glint_status geometry_fill_at(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
+                              const double *t_s, int n, geometry_worker *worker, tile_geometry *out,
+                              brdf_light *lights, glint_error *error)
+{
+    sighting seen = {0};
+    out->first = 0;
+    out->n = n;
+    out->any_bright = false;
+    for (int k = 0; k < n; k++) {
+        out->t_s[k] = t_s[k];
+        const glint_status status =
+            fill_row(s, grid, wanted, seen.light_time_s, k, worker, out, lights, &seen, error);
+        if (status) return status;
+        if (out->seen[k] && out->sun_weight[k] > 0) out->any_bright = true;
+    }
+    fill_spare_lanes(n, s->satellite.n_components, lights);
+    return GLINT_OK;
+}
+
+glint_status satellite_plan_shadows(const satellite *sat, visibility **out, glint_error *error)
+{
+    const size_t n = (size_t)sat->n_components;
+    double body[9], (*component_body)[9] = calloc(n, sizeof *component_body);
+    visibility_pose *poses = calloc(n, sizeof *poses);
+    visibility_component *components = calloc(n, sizeof *components);
+    *out = NULL;
+    glint_status status = GLINT_INTERNAL;
+    if (component_body && poses && components) {
+        mat_identity(body);
+        for (size_t k = 0; k < n; k++) { /* at angle 0 of all hinges but the fixed ones */
+            const size_t c = (size_t)sat->order[k];
+            const scenario_component *part = &sat->components[c];
+            const bool turned = part->has_hinge && part->hinge.drive == HINGE_FIXED;
+            double turn[9];
+            hinge_matrix(&part->hinge, turned ? hinge_angle(&part->hinge, 0, NULL) : 0, turn);
+            mat_mul(turn, part->parent < 0 ? body : component_body[part->parent],
+                    component_body[c]);
+        }
+        place_components(sat, body, (const double(*)[9])component_body, poses);
+        for (size_t c = 0; c < n; c++) {
+            const scenario_component *part = &sat->components[c];
+            components[c] =
+                (visibility_component){.parent = part->parent,
+                                       .moves = part->has_hinge && part->hinge.drive != HINGE_FIXED,
+                                       .pose = poses[c]};
+            copy3(part->hinge.axis, components[c].axis);
+        }
+        status = visibility_make(&sat->model, components, out, error);
+    } else {
+        error_no_memory(error);
+    }
+    free(component_body);
+    free(poses);
+    free(components);
+    return status;
 }

@@ -69,13 +69,15 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
         const double airmass = s->has_geometry ? 0 : airmass_kasten_young(g->elevation[k]);
         const double weight =
             x && g->seen[k] ? g->sun_weight[k] / (g->range_m[k] * g->range_m[k]) : 0;
+        bool bright = false;
         for (int b = 0; b < s->n_bands; b++) {
             const double total = weight > 0 ? total_of(m, x, b, k) : 0;
-            flux[b] = weight * total;
+            flux[b] = total > 0 ? weight * total : 0;
             magnitude[b] = 0;
+            bright |= flux[b] > 0;
             if (flux[b] > 0)
-                magnitude[b] = magnitude_of(flux[b], s->sun_magnitude[b]) +
-                               s->extinction[b] * airmass;
+                magnitude[b] =
+                    magnitude_of(flux[b], s->sun_magnitude[b]) + s->extinction[b] * airmass;
             if (b == 0 && flux[0] > 0 && s->shares)
                 fill_shares(m, x, k, total, material, component);
         }
@@ -97,6 +99,6 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
             r->azimuth_rad = r->elevation_rad = r->sun_elevation_rad = 0;
         else
             run_clock_utc(&s->clock, g->t_s[k], &r->utc);
-        r->flags = flags_of(s, g, k, flux[0] > 0);
+        r->flags = flags_of(s, g, k, bright);
     }
 }

@@ -62,9 +62,9 @@ static bool find_column(verification *v, const char *name, place where, size_t *
         return true;
     }
     const char *near = names ? nearest_name(name, names, count) : NULL;
-    v->status = errors_add(v->errors, GLINT_INPUT, where,
-                           "the table has no number column '%.60s'%s%s%s", name,
-                           near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+    v->status =
+        errors_add(v->errors, GLINT_INPUT, where, "the table has no number column '%.60s'%s%s%s",
+                   name, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
     free(names);
     return false;
 }
@@ -130,16 +130,15 @@ static void compare(verification *v, const glint_row *row, size_t column, const 
         deviate(v, e->where, "%s at %s is %.15g; expected an empty cell", e->column, label, got);
     else if (full && !(fabs(got - e->value) <= allowed))
         deviate(v, e->where, "%s at %s is %.15g; expected %.15g within %.3g, off by %.3g%s%s%s",
-                e->column, label, got, e->value, allowed, got - e->value,
-                e->source[0] ? " (" : "", e->source, e->source[0] ? ")" : "");
+                e->column, label, got, e->value, allowed, got - e->value, e->source[0] ? " (" : "",
+                e->source, e->source[0] ? ")" : "");
 }
 
 static void hold_expectations(verification *v, const glint_row *row)
 {
     for (int i = 0; i < v->s->n_expectations; i++) {
         const expectation *e = &v->s->expectations[i];
-        const bool here =
-            e->by_row ? e->row == v->row : fabs(row->t_s - e->t_s) <= SAME_TIME_S;
+        const bool here = e->by_row ? e->row == v->row : fabs(row->t_s - e->t_s) <= SAME_TIME_S;
         if (!here || v->met_row[i]) continue;
         char label[64];
         snprintf(label, sizeof label, "t_s = %.9g (row %lld)", row->t_s, (long long)v->row);
@@ -260,8 +259,7 @@ static glint_status hold_all(verification *v, glint_curve *curve)
         size_t n;
         glint_error error;
         const glint_status status = glint_curve_next(curve, &rows, &n, &error);
-        if (status)
-            return errors_take(v->errors, &error, (place){v->s->documents[0]->path, 0, 0});
+        if (status) return errors_take(v->errors, &error, (place){v->s->documents[0]->path, 0, 0});
         if (n == 0) break;
         for (size_t k = 0; k < n; k++, v->row++) {
             hold_expectations(v, &rows[k]);

@@ -4,10 +4,9 @@
 #include "base/vec.h"
 #include "orbit/attitude_law.h"
 
-static const attitude_law *const laws[] = {&attitude_nadir,    &attitude_rsw,
-                                           &attitude_point,    &attitude_sun_pointing,
-                                           &attitude_inertial, &attitude_spin,
-                                           &attitude_torque_free};
+static const attitude_law *const laws[] = {
+    &attitude_nadir,    &attitude_rsw,  &attitude_point,      &attitude_sun_pointing,
+    &attitude_inertial, &attitude_spin, &attitude_torque_free};
 enum { N_LAWS = sizeof laws / sizeof *laws };
 
 const attitude_law *attitude_law_at(size_t k)

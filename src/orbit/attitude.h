@@ -44,7 +44,7 @@ typedef struct attitude {
     double matrix[9];        /* the law's own: body_gcrs (inertial), or the triad that the body axes
                               * span, as rows in body coordinates (point, spin) */
     double rate_rad_s;       /* right-handed about `axis` */
-    torque_free tumble;     /* torque-free */
+    torque_free tumble;      /* torque-free */
     double phase_rad;        /* turned at the epoch */
     double epoch_s;          /* TT s from the start */
     double offset[9];        /* v_body = offset v_law; identity where none */

@@ -28,7 +28,7 @@ static double limb_angle(const double r[3], const double p[3], const double pole
 double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double sun_distance_m,
                                const double pole[3])
 {
-    double r[3], side[3];
+    double r[3];
     scale3(r_m, 1.0 / EARTH_RADIUS_M, r);
     const double r2 = dot3(r, r);
     if (!(stretched_dot(r, r, pole) > 1.0)) return 0.0;
@@ -44,16 +44,27 @@ double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double 
     if (r2 * sin_sun * sin_sun < polar2 && r_cos_d > cos_sun * sqrt(r2 - polar2) + sin_sun * polar)
         return 0.0;
 
-    const double length = sqrt(r2), down[3] = {-r[0] / length, -r[1] / length, -r[2] / length};
-    double sin_d = perp3(sun, down, side);
+    eclipse_discs discs;
+    eclipse_discs_at(r_m, sun, sun_distance_m, pole, &discs);
+    return eclipse_disc_fraction(discs.sun, discs.earth, discs.separation);
+}
+
+void eclipse_discs_at(const double r_m[3], const double sun[3], double sun_distance_m,
+                      const double pole[3], eclipse_discs *out)
+{
+    double r[3], side[3];
+    scale3(r_m, 1.0 / EARTH_RADIUS_M, r);
+    const double length = norm3(r), down[3] = {-r[0] / length, -r[1] / length, -r[2] / length};
+    const double sin_d = perp3(sun, down, side);
     if (sin_d == 0.0) {
         /* The Sun stands behind the very centre: any side will do. */
         double across[3] = {0.0, 0.0, 0.0};
         across[smallest3(down)] = 1.0;
         perp3(across, down, side);
     }
-    const double limb = limb_angle(r, side, pole);
-    return eclipse_disc_fraction(asin(sin_sun), limb, atan2(sin_d, dot3(sun, down)));
+    out->sun = asin(fmin(1.0, SUN_RADIUS_M / sun_distance_m));
+    out->earth = limb_angle(r, side, pole);
+    out->separation = atan2(sin_d, dot3(sun, down));
 }
 
 double eclipse_disc_fraction(double a, double b, double d)

@@ -11,6 +11,18 @@
 double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double sun_distance_m,
                                const double pole[3]);
 
+/* The two discs that the fraction follows from, as the satellite sees them; all in rad. */
+typedef struct eclipse_discs {
+    double sun;        /* angular radius */
+    double earth;      /* angle from the Earth's centre to its limb, towards the Sun */
+    double separation; /* of the centres */
+} eclipse_discs;
+
+/* Finds them; arguments as above. The Sun is whole where separation >= earth + sun, and hidden
+ * where separation <= earth - sun. The satellite must be outside the ellipsoid. */
+void eclipse_discs_at(const double r_m[3], const double sun[3], double sun_distance_m,
+                      const double pole[3], eclipse_discs *out);
+
 /* Uncovered fraction of a disc of angular radius a behind one of radius b at distance d (all rad,
  * at least 0, treated as plane). a = 0 is a point: 1 or 0. */
 double eclipse_disc_fraction(double a, double b, double d);

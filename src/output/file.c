@@ -61,8 +61,8 @@ static mode_t mode_for(const struct stat *old)
     return 0666 & ~mask;
 }
 
-/* Opens a file beside `path`: without a name where the system can, so that nothing stays behind even
- * when the program is killed; else under a temporary name. */
+/* Opens a file beside `path`: without a name where the system can, so that nothing stays behind
+ * even when the program is killed; else under a temporary name. */
 static glint_status open_beside(out_file *file, const struct stat *old, glint_error *error)
 {
     char *folder = folder_of(file->path);
@@ -80,7 +80,8 @@ static glint_status open_beside(out_file *file, const struct stat *old, glint_er
         }
     }
     file->close_fd = true;
-    if (fchmod(file->fd, mode_for(old)) != 0) return fail(file->shown, "set its permissions", error);
+    if (fchmod(file->fd, mode_for(old)) != 0)
+        return fail(file->shown, "set its permissions", error);
     return GLINT_OK;
 }
 
@@ -190,4 +191,16 @@ void out_file_abandon(out_file *file)
     if (file->temporary) unlink(file->temporary);
     if (file->close_fd && file->fd >= 0) close(file->fd);
     release(file);
+}
+
+glint_status glint_text_write(const char *path, const char *bytes, size_t length,
+                              glint_error *error)
+{
+    out_file *file;
+    glint_status status = out_file_open(path, &file, error);
+    if (status) return status;
+    status = out_file_write(file, bytes, length, error);
+    if (!status) return out_file_commit(file, error);
+    out_file_abandon(file);
+    return status;
 }

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The median comes from a histogram: bins of 0.001 mag from -50 to 100 mag; what lies outside counts at
- * the ends. */
+/* The median comes from a histogram: bins of 0.001 mag from -50 to 100 mag; what lies outside
+ * counts at the ends. */
 static const double FIRST_MAG = -50, BIN_MAG = 0.001;
 enum { BINS = 150000 };
 

@@ -1,6 +1,9 @@
 /* table.c: a light curve as a CSV table with an ECSV header. */
 #include "base/text.h"
+#include "output/curve_plot.h"
+#include "output/ecsv.h"
 #include "output/file.h"
+#include "output/plot.h"
 #include "output/summary.h"
 
 #include <stdlib.h>
@@ -9,59 +12,6 @@
 /* Rows that one thread formats at a time. */
 enum { CHUNK = 256 };
 
-/* Reads one character of UTF-8 from the n > 0 bytes at s; returns its length, 0 where the bytes are no
- * character (names in element sets may hold anything). */
-static size_t utf8_read(const unsigned char *s, size_t n, unsigned *out)
-{
-    static const unsigned LEAST[5] = {0, 0, 0x80, 0x800, 0x10000}; /* shorter forms are not allowed */
-    const size_t length = s[0] < 0x80             ? 1
-                          : (s[0] & 0xe0) == 0xc0 ? 2
-                          : (s[0] & 0xf0) == 0xe0 ? 3
-                          : (s[0] & 0xf8) == 0xf0 ? 4
-                                                  : 0;
-    if (length == 0 || length > n) return 0;
-    unsigned c = length == 1 ? s[0] : s[0] & (0x7fu >> length);
-    for (size_t i = 1; i < length; i++) {
-        if ((s[i] & 0xc0) != 0x80) return 0;
-        c = c << 6 | (s[i] & 0x3fu);
-    }
-    if (c < LEAST[length] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000)) return 0;
-    *out = c;
-    return length;
-}
-
-/* What YAML does not take as it is, or some reader may take for the end of a line: control
- * characters, next line, line and paragraph separator, byte order mark, U+FFFE and U+FFFF. */
-static bool needs_escape(unsigned c)
-{
-    return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x2028 || c == 0x2029 || c == 0xfeff ||
-           (c >= 0xfffe && c <= 0xffff);
-}
-
-/* A string in YAML's double quotes, on one line: safe for any bytes. Those that are no UTF-8 are
- * taken for Latin-1. */
-static void quote(text *t, const char *string, size_t n)
-{
-    text_char(t, '"');
-    for (size_t i = 0, length; i < n; i += length) {
-        unsigned c = (unsigned char)string[i];
-        length = utf8_read((const unsigned char *)string + i, n - i, &c);
-        if (c == '"' || c == '\\')
-            text_char(t, '\\');
-        if (length == 0 || needs_escape(c))
-            text_printf(t, c < 0x100 ? "\\x%02x" : "\\u%04x", c);
-        else
-            text_append(t, string + i, length);
-        if (length == 0) length = 1;
-    }
-    text_char(t, '"');
-}
-
-static void quote_whole(text *t, const char *string)
-{
-    quote(t, string, strlen(string));
-}
-
 /* What is known of the run. Keys of a YAML map are unique, so what was set makes one list. */
 static void write_facts(const glint_curve *curve, text *t)
 {
@@ -69,44 +19,28 @@ static void write_facts(const glint_curve *curve, text *t)
     bool in_list = false;
     for (size_t k = 0; glint_curve_fact(curve, k, &key, &value); k++) {
         const bool of_list = string_equal(key, "set");
-        if (of_list && !in_list) text_add(t, "# - set:\n");
+        if (of_list && !in_list) ecsv_list(t, key);
         in_list = of_list;
         if (of_list)
-            text_add(t, "#   - ");
+            ecsv_item(t, value, strlen(value));
         else
-            text_printf(t, "# - %s: ", key);
-        quote_whole(t, value);
-        text_add(t, "\n");
+            ecsv_fact(t, key, value);
     }
 }
 
-/* ECSV 1.0 (Astropy APE 6): a YAML document in comment lines, then the names of the columns. */
 static void write_header(const glint_curve *curve, text *t)
 {
     size_t n;
     const glint_column *columns = glint_curve_columns(curve, &n);
-    text_add(t, "# %ECSV 1.0\n# ---\n# delimiter: ','\n# datatype:\n");
-    for (size_t i = 0; i < n; i++) {
-        text_printf(t, "# - {name: %s", columns[i].name);
-        if (columns[i].unit[0]) text_printf(t, ", unit: %s", columns[i].unit);
-        text_printf(t, ", datatype: %s, description: ", columns[i].is_text ? "string" : "float64");
-        quote_whole(t, columns[i].description);
-        text_add(t, "}\n");
-    }
-    text_add(t, "# meta: !!omap\n");
+    ecsv_begin(t, columns, n);
     write_facts(curve, t);
-    text_add(t, "# - scenario:\n");
+    ecsv_list(t, "scenario");
     for (const char *line = glint_curve_scenario(curve); *line;) {
         const size_t length = strcspn(line, "\n");
-        text_add(t, "#   - ");
-        quote(t, line, length);
-        text_add(t, "\n");
+        ecsv_item(t, line, length);
         line += length + (line[length] == '\n');
     }
-    text_add(t, "# schema: astropy-2.0\n");
-    for (size_t i = 0; i < n; i++)
-        text_printf(t, "%s%s", i ? "," : "", columns[i].name);
-    text_char(t, '\n');
+    ecsv_end(t, columns, n);
 }
 
 static void write_rows(const glint_curve *curve, const glint_row *rows, size_t n, text *t)
@@ -180,10 +114,49 @@ static glint_status write_header_to(const glint_curve *curve, out_file *file, gl
     return status;
 }
 
+/* What the rows of a run go to. */
+typedef struct sinks {
+    out_file *file;         /* owned until it is committed */
+    summary_maker *summary; /* owned */
+    plot *plot;             /* owned until it is finished; NULL: no picture is wanted */
+    curve_plot *curve_plot; /* owned; as plot */
+} sinks;
+
+/* Opens them all: what cannot be written is said before anything is computed. */
+static glint_status sinks_open(const glint_curve *curve, const char *path, const char *picture,
+                               sinks *out, glint_error *error)
+{
+    size_t n;
+    const glint_column *columns = glint_curve_columns(curve, &n);
+    *out = (sinks){0};
+    if (path && glint_curve_reads(curve, path))
+        return error_set(error, GLINT_OUTPUT, (place){path, 0, 0},
+                         "the scenario is read from this file; expected another one to write to");
+    out->summary =
+        summary_start(glint_curve_step_s(curve), n > 0 && string_equal(columns[0].name, "utc"));
+    if (!out->summary) return error_no_memory(error);
+    if (picture) {
+        const glint_status status = plot_open(picture, &out->plot, error);
+        if (status) return status;
+        out->curve_plot = curve_plot_start(curve);
+        if (!out->curve_plot) return error_no_memory(error);
+    }
+    return out_file_open(path, &out->file, error);
+}
+
+/* Closes them; what is not committed or finished by now leaves nothing behind. */
+static void sinks_close(sinks *s)
+{
+    out_file_abandon(s->file);
+    plot_abandon(s->plot);
+    curve_plot_free(s->curve_plot);
+    summary_free(s->summary);
+}
+
 /* Pulls all blocks. The header waits for the first, so that a run that fails at its start writes
  * nothing. */
-static glint_status write_all(glint_curve *curve, out_file *file, summary_maker *maker,
-                              glint_progress *progress, void *context, glint_error *error)
+static glint_status write_all(glint_curve *curve, sinks *to, glint_progress *progress,
+                              void *context, glint_error *error)
 {
     chunk_texts chunks = {0};
     glint_status status = GLINT_OK;
@@ -192,11 +165,12 @@ static glint_status write_all(glint_curve *curve, out_file *file, summary_maker 
         const glint_row *rows;
         size_t n;
         status = glint_curve_next(curve, &rows, &n, error);
-        if (!status && first) status = write_header_to(curve, file, error);
+        if (!status && first) status = write_header_to(curve, to->file, error);
         first = false;
         if (status || n == 0) break;
-        summary_add(maker, rows, n);
-        status = write_block(curve, rows, n, &chunks, file, error);
+        summary_add(to->summary, rows, n);
+        if (to->curve_plot) curve_plot_add(to->curve_plot, rows, n);
+        status = write_block(curve, rows, n, &chunks, to->file, error);
         if (!status && progress &&
             !progress(context, glint_curve_done(curve), glint_curve_length(curve)))
             status = error_set(error, GLINT_OUTPUT, PLACE_NONE, "stopped before the end");
@@ -206,27 +180,44 @@ static glint_status write_all(glint_curve *curve, out_file *file, summary_maker 
     return status;
 }
 
-glint_status glint_table_write(glint_curve *curve, const char *path, glint_summary *summary,
-                               glint_progress *progress, void *context, glint_error *error)
+/* Puts the table in its place. */
+static glint_status commit(sinks *s, glint_error *error)
 {
-    size_t n;
-    const glint_column *columns = glint_curve_columns(curve, &n);
-    summary_maker *maker =
-        summary_start(glint_curve_step_s(curve), n > 0 && string_equal(columns[0].name, "utc"));
-    if (!maker) return error_no_memory(error);
-    out_file *file;
-    glint_status status = out_file_open(path, &file, error);
-    if (!status) {
-        status = write_all(curve, file, maker, progress, context, error);
-        if (status)
-            out_file_abandon(file);
-        else
-            status = out_file_commit(file, error);
+    out_file *file = s->file;
+    s->file = NULL;
+    return out_file_commit(file, error);
+}
+
+/* Draws the picture and puts it in its place. */
+static glint_status draw(sinks *s, glint_error *error)
+{
+    plot *picture = s->plot;
+    text script = {0};
+    curve_plot_write(s->curve_plot, &script);
+    glint_status status;
+    if (script.failed) {
+        status = error_no_memory(error);
+    } else {
+        s->plot = NULL;
+        status = plot_finish(picture, script.data, script.length, error);
     }
+    text_free(&script);
+    return status;
+}
+
+glint_status glint_table_write(glint_curve *curve, const char *path, const char *picture,
+                               glint_summary *summary, glint_progress *progress, void *context,
+                               glint_error *error)
+{
+    sinks to;
+    glint_status status = sinks_open(curve, path, picture, &to, error);
+    if (!status) status = write_all(curve, &to, progress, context, error);
+    if (!status) status = commit(&to, error);
+    if (!status && picture) status = draw(&to, error);
     if (!status && summary) {
-        summary_finish(maker, summary);
+        summary_finish(to.summary, summary);
         summary->band = glint_curve_band(curve);
     }
-    summary_free(maker);
+    sinks_close(&to);
     return status;
 }

@@ -15,7 +15,8 @@ static const param_info DEC = {"dec_deg", "deg", "ICRS", -90, 90, PARAM_REQUIRED
 static void read_direction_table(reader *r, const char *key, const toml_node *node, direction *out)
 {
     reader inner = reader_start(node, key, r->errors);
-    const bool place_given = reader_has(&inner, "latitude_deg") || reader_has(&inner, "longitude_deg");
+    const bool place_given =
+        reader_has(&inner, "latitude_deg") || reader_has(&inner, "longitude_deg");
     double a, b, height_m;
     if (place_given) {
         reader_param(&inner, &LATITUDE, &a);
@@ -40,7 +41,8 @@ bool read_direction(reader *r, const char *key, bool required, direction *out)
         "observer, { ra_deg, dec_deg } or { latitude_deg, longitude_deg }";
     const toml_node *node = reader_find(r, key);
     if (!node) {
-        if (required) reader_fail(r, r->table->where, "%s has no '%s'; expected %s", r->name, key, EXPECTED);
+        if (required)
+            reader_fail(r, r->table->where, "%s has no '%s'; expected %s", r->name, key, EXPECTED);
         return false;
     }
     if (node->type == TOML_TABLE) {
@@ -81,16 +83,26 @@ static void read_key(reading *rd, reader *r, attitude_spec *spec, int k)
 {
     const attitude_key *key = &spec->law->keys[k];
     double *value = spec->value[k];
-    const param_info number = {key->name, key->unit, key->doc, -INFINITY, INFINITY,
-                               key->required ? PARAM_REQUIRED : key->def, 0};
+    const param_info number = {
+        key->name, key->unit, key->doc, -1e9, 1e9, key->required ? PARAM_REQUIRED : key->def, 0};
     utc_time epoch;
     bool good = false;
     switch (key->kind) {
-    case ATTITUDE_NUMBER: good = reader_param(r, &number, value); break;
-    case ATTITUDE_VECTOR: good = reader_vector(r, key->name, key->required, 3, value); break;
-    case ATTITUDE_AXIS: good = reader_axis(r, key->name, key->required, value); break;
-    case ATTITUDE_DIRECTION: good = read_direction(r, key->name, key->required, &spec->to[k]); break;
-    case ATTITUDE_QUATERNION: good = read_quaternion(r, key, value); break;
+    case ATTITUDE_NUMBER:
+        good = reader_param(r, &number, value);
+        break;
+    case ATTITUDE_VECTOR:
+        good = reader_vector(r, key->name, key->required, 3, value);
+        break;
+    case ATTITUDE_AXIS:
+        good = reader_axis(r, key->name, key->required, value);
+        break;
+    case ATTITUDE_DIRECTION:
+        good = read_direction(r, key->name, key->required, &spec->to[k]);
+        break;
+    case ATTITUDE_QUATERNION:
+        good = read_quaternion(r, key, value);
+        break;
     case ATTITUDE_EPOCH:
         good = reader_time(r, key->name, key->required, &epoch);
         if (good) {
@@ -163,8 +175,8 @@ void read_attitude(reading *rd, reader *root)
 
 static void read_drive(reading *rd, reader *r, hinge *out)
 {
-    static const param_info ANGLE = {"angle_deg", "deg", "", -INFINITY, INFINITY, 0, 0};
-    static const param_info RATE = {"rate_deg_s", "deg/s", "", -INFINITY, INFINITY, 0, 0};
+    static const param_info ANGLE = {"angle_deg", "deg", "", -1e9, 1e9, 0, 0};
+    static const param_info RATE = {"rate_deg_s", "deg/s", "", -1e6, 1e6, 0, 0};
     double angle_deg, rate_deg_s, face[3];
     const bool has_angle = reader_param(r, &ANGLE, &angle_deg);
     const bool has_rate = reader_param(r, &RATE, &rate_deg_s);
@@ -177,7 +189,8 @@ static void read_drive(reading *rd, reader *r, hinge *out)
         if (reader_has(r, "face"))
             reader_fail(r, reader_place(r, "face"),
                         "'face' belongs to 'track', which is not given; expected both or neither");
-        if (!reader_has(r, ANGLE.name) && !reader_has(r, RATE.name) && !toml_child(r->table, "table"))
+        if (!reader_has(r, ANGLE.name) && !reader_has(r, RATE.name) &&
+            !toml_child(r->table, "table"))
             reader_fail(r, r->table->where,
                         "the hinge has no drive; expected one of angle_deg, rate_deg_s, track");
         return;
@@ -200,11 +213,16 @@ static void read_drive(reading *rd, reader *r, hinge *out)
 
 void read_hinge(reading *rd, const toml_node *table, hinge *out)
 {
+    static const double FARTHEST_M = 1e7; /* as for the centres of primitives */
     static const param_info OFFSET = {"offset_deg", "deg", "", -360, 360, 0, 0};
     *out = (hinge){0};
     reader r = reader_start(table, "hinge", rd->errors);
     double offset_deg, limits[2];
-    reader_vector(&r, "origin_m", true, 3, out->origin_m);
+    if (reader_vector(&r, "origin_m", true, 3, out->origin_m) &&
+        !(norm3(out->origin_m) <= FARTHEST_M))
+        reader_fail(&r, reader_place(&r, "origin_m"),
+                    "the hinge lies %g m from its parent's origin; expected at most %g m",
+                    norm3(out->origin_m), FARTHEST_M);
     reader_axis(&r, "axis", true, out->axis);
     read_drive(rd, &r, out);
     reader_param(&r, &OFFSET, &offset_deg);

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const param_info TOLERANCE = {"tolerance", "the column's unit", "", 0, INFINITY, 0, 0};
 static const param_info RELATIVE = {"relative", "", "", 0, 1, 0, 0};
@@ -104,22 +105,25 @@ static void read_conditions(reading *rd, reader *r, requirement *out)
         if (range[0] > range[1])
             reader_fail(r, node->where, "[%g, %g]: the lower limit lies above the upper one",
                         range[0], range[1]);
-        out->when[out->n_when++] =
-            (row_condition){node->key, range[0], range[1], node->key_where};
+        out->when[out->n_when++] = (row_condition){node->key, range[0], range[1], node->key_where};
     }
 }
 
 static void read_requirement(reading *rd, const toml_node *table, requirement *out)
 {
-    static const param_info FAINTER = {"fainter_than", "mag", "", -INFINITY, INFINITY,
-                                       PARAM_REQUIRED, 0};
+    static const param_info FAINTER = {"fainter_than", "mag",          "", -INFINITY,
+                                       INFINITY,       PARAM_REQUIRED, 0};
     static const param_info FRACTION = {"for_fraction", "", "", 0, 1, 1, 0};
-    static const param_info REFERENCE = {"reference_height_km", "km", "", 0, 1e7, PARAM_NONE,
-                                         PARAM_MIN_OPEN | PARAM_OPTIONAL};
+    static const param_info REFERENCE = {
+        "reference_height_km", "km", "", 0, 1e7, PARAM_NONE, PARAM_MIN_OPEN | PARAM_OPTIONAL};
     reader r = reader_start(table, "[[require]]", rd->errors);
     double height_km;
     *out = (requirement){.where = table->where, .column = ""};
-    reader_string(&r, "column", true, &out->column);
+    if (reader_string(&r, "column", true, &out->column) && strncmp(out->column, "mag_", 4) != 0)
+        reader_fail(
+            &r, reader_place(&r, "column"),
+            "a requirement is on a magnitude, and '%.60s' is none; expected mag_V or the like",
+            out->column);
     reader_param(&r, &FAINTER, &out->fainter_than);
     reader_param(&r, &FRACTION, &out->for_fraction);
     out->has_reference = reader_param(&r, &REFERENCE, &height_km);

@@ -1,4 +1,5 @@
-/* read_geometry.c: [geometry]: directions in the body frame, from a table, a sweep or a rotation. */
+/* read_geometry.c: [geometry]: directions in the body frame, from a table, a sweep or a rotation.
+ */
 #include "base/constants.h"
 #include "base/vec.h"
 #include "scenario/reading.h"
@@ -8,8 +9,7 @@
 
 enum { MOST_ROWS = 100000000 };
 
-static const param_info RANGE = {"range_km", "km", "observer to satellite", 0, 1e12, 1000,
-                                 PARAM_MIN_OPEN};
+static const param_info RANGE = {"range_km", "km", "observer to satellite", 1e-6, 1e12, 1000, 0};
 
 static bool allocate(reading *rd, int64_t n)
 {
@@ -42,6 +42,7 @@ static glint_status read_cells(reading *rd, const csv_table *csv, long row, cons
 
 static void read_rows(reading *rd, const csv_table *csv, const int column[8], double range_km)
 {
+    static const double LONGEST_S = 1e10; /* 300 years */
     geometry_table *g = &rd->s->geometry;
     for (long row = 0; row < csv->n_rows; row++) {
         double km = range_km, t_s = (double)row;
@@ -51,11 +52,16 @@ static void read_rows(reading *rd, const csv_table *csv, const int column[8], do
             if (csv_number(csv, row, column[6], &km, rd->errors))
                 reading_note(rd, GLINT_INPUT);
             else if (!param_accepts(&RANGE, km))
-                reading_note(rd, errors_add(rd->errors, GLINT_INPUT,
-                                            csv_place(csv, csv_at(csv, row, column[6])),
-                                            "range_km is %g; expected a distance above 0 km", km));
+                reading_note(
+                    rd,
+                    errors_add(rd->errors, GLINT_INPUT, csv_place(csv, csv_at(csv, row, column[6])),
+                               "range_km is %g; expected a distance between 1e-6 and 1e12 km", km));
         }
         if (column[7] >= 0) reading_note(rd, csv_number(csv, row, column[7], &t_s, rd->errors));
+        if (!(fabs(t_s) <= LONGEST_S))
+            reading_note(rd, errors_add(rd->errors, GLINT_INPUT,
+                                        csv_place(csv, csv_at(csv, row, column[7])),
+                                        "t_s is %g; expected at most %g s", t_s, LONGEST_S));
         g->range_m[row] = km * 1e3;
         g->t_s[row] = t_s;
     }
@@ -80,10 +86,11 @@ static void read_table(reading *rd, reader *r, double range_km)
         column[i] = csv_column(&csv, NAMES[i]);
         if (column[i] < 0 && i < 6) {
             complete = false;
-            reading_note(rd, errors_add(rd->errors, GLINT_INPUT, csv_place(&csv, &csv.cells[0]),
-                                        "the table has no column '%s'; expected sun_x, sun_y, sun_z, "
-                                        "obs_x, obs_y, obs_z and, if wanted, range_km and t_s",
-                                        NAMES[i]));
+            reading_note(rd,
+                         errors_add(rd->errors, GLINT_INPUT, csv_place(&csv, &csv.cells[0]),
+                                    "the table has no column '%s'; expected sun_x, sun_y, sun_z, "
+                                    "obs_x, obs_y, obs_z and, if wanted, range_km and t_s",
+                                    NAMES[i]));
         }
     }
     if (complete && csv.n_rows == 0)

@@ -6,6 +6,12 @@
 
 /* Reads [materials.*] and those of the files in materials_from. */
 void read_materials(reading *rd, reader *r);
+/* Reads one [materials.NAME] table in the scenario's bands (a band that is NULL: as the table says,
+ * without the keys of any band) and checks the keys of all others. scenario_material_free ends *out
+ * in every case. */
+void read_material(reading *rd, const toml_node *table, scenario_material *out);
+/* What a material is as a function, in its one band; borrowed. */
+const brdf_material *material_function(const glint_material *material);
 /* Warns of materials that are used where their parameters do not hold. */
 void warn_of_materials(reading *rd);
 void scenario_material_free(scenario_material *material);

@@ -40,7 +40,8 @@ static int named_material(reading *rd, reader *r, const toml_node *node)
         }
     }
     const char *near = names ? nearest_name(node->string, names, (size_t)sat->n_materials) : NULL;
-    reader_fail(r, node->where, "there is no material '%.60s'%s%s%s; expected the name of a [materials.NAME] table",
+    reader_fail(r, node->where,
+                "there is no material '%.60s'%s%s%s; expected the name of a [materials.NAME] table",
                 node->string, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
     free(names);
     return PRIMITIVE_NO_MATERIAL;
@@ -59,6 +60,62 @@ static void read_faces(reading *rd, reader *r, const char *key, primitive_spec *
     }
     const glint_status status = reader_done(&inner);
     if (status > r->status) r->status = status;
+}
+
+/* Names of a file's own, and the materials that they stand for. */
+static void read_names(reading *rd, reader *r, const char *key, primitive_spec *spec)
+{
+    const toml_node *table = reader_table(r, key, false);
+    if (!table || table->n_children == 0) return;
+    spec->names = calloc((size_t)table->n_children, sizeof *spec->names);
+    if (!spec->names) {
+        r->status = errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+        return;
+    }
+    for (int i = 0; i < table->n_children; i++) {
+        const toml_node *node = &table->children[i];
+        if (node->type != TOML_STRING) {
+            reader_fail(r, node->where, "'%.60s' in %s is %s; expected the name of a material",
+                        node->key, key, toml_type_name(node->type));
+            continue;
+        }
+        spec->names[spec->n_names++] =
+            (primitive_name){node->key, named_material(rd, r, node), node->where};
+    }
+}
+
+static void read_crinkle(reading *rd, reader *r, const char *key, primitive_spec *spec)
+{
+    static const param_info TILT = {"tilt_rms_deg", "deg",         "", 0, CRINKLE_MOST_TILT_DEG,
+                                    PARAM_REQUIRED, PARAM_MIN_OPEN};
+    const toml_node *table = reader_table(r, key, false);
+    if (!table) return;
+    reader inner = reader_start(table, key, rd->errors);
+    int64_t facets, seed;
+    double tilt_deg;
+    reader_integer(&inner, "facets_per_side", true, 2, CRINKLE_MAX, 0, &facets);
+    reader_param(&inner, &TILT, &tilt_deg);
+    reader_integer(&inner, "seed", false, 0, INT64_MAX, 1, &seed);
+    spec->crinkle = (crinkle){(int)facets, tilt_deg * DEG, (uint64_t)seed};
+    const glint_status status = reader_done(&inner);
+    if (status > r->status) r->status = status;
+}
+
+static void read_path(reading *rd, reader *r, const primitive_key *key, primitive_spec *spec)
+{
+    const toml_node *node =
+        reader_get(r, key->name, TOML_STRING, key->required, "the path of a file");
+    if (!node) return;
+    spec->path = reading_path(rd, node);
+    if (!spec->path) r->status = GLINT_INTERNAL;
+}
+
+static void read_word(reader *r, const primitive_key *key, double *value)
+{
+    int word;
+    reader_choice(r, key->name, key->words, key->n_words, key->required ? -1 : (int)key->def[0],
+                  &word);
+    value[0] = word;
 }
 
 static void read_points(reader *r, const primitive_key *key, primitive_spec *spec)
@@ -85,8 +142,8 @@ static void read_points(reader *r, const primitive_key *key, primitive_spec *spe
 /* Numbers of a vector key in the key's range. */
 static void check_range(reader *r, const primitive_key *key, int n, const double *value)
 {
-    const param_info range = {key->name, key->unit, key->doc, key->min, key->max, 0,
-                              key->min_open ? PARAM_MIN_OPEN : 0};
+    const param_info range = {
+        key->name, key->unit, key->doc, key->min, key->max, 0, key->min_open ? PARAM_MIN_OPEN : 0};
     for (int i = 0; i < n; i++) {
         if (param_accepts(&range, value[i])) continue;
         char expected[PARAM_RANGE_SIZE];
@@ -102,7 +159,11 @@ static void read_primitive_key(reading *rd, reader *r, primitive_spec *spec, int
 {
     const primitive_key *key = &spec->kind->keys[k];
     double *value = spec->value[k];
-    const param_info number = {key->name, key->unit, key->doc, key->min, key->max,
+    const param_info number = {key->name,
+                               key->unit,
+                               key->doc,
+                               key->min,
+                               key->max,
                                key->required ? PARAM_REQUIRED : key->def[0],
                                key->min_open ? PARAM_MIN_OPEN : 0};
     const toml_node *node;
@@ -110,7 +171,9 @@ static void read_primitive_key(reading *rd, reader *r, primitive_spec *spec, int
     bool on;
     spec->given[k] = reader_has(r, key->name);
     switch (key->kind) {
-    case KEY_NUMBER: reader_param(r, &number, value); break;
+    case KEY_NUMBER:
+        reader_param(r, &number, value);
+        break;
     case KEY_COUNT:
         reader_integer(r, key->name, key->required, (int64_t)key->min, (int64_t)key->max,
                        (int64_t)key->def[0], &whole);
@@ -124,13 +187,31 @@ static void read_primitive_key(reading *rd, reader *r, primitive_spec *spec, int
         if (reader_vector(r, key->name, key->required, key->length, value))
             check_range(r, key, key->length, value);
         break;
-    case KEY_DIRECTION: reader_axis(r, key->name, key->required, value); break;
-    case KEY_POINTS: read_points(r, key, spec); break;
+    case KEY_DIRECTION:
+        reader_axis(r, key->name, key->required, value);
+        break;
+    case KEY_POINTS:
+        read_points(r, key, spec);
+        break;
     case KEY_MATERIAL:
         node = reader_get(r, key->name, TOML_STRING, key->required, "the name of a material");
         if (node) spec->material[k] = named_material(rd, r, node);
         break;
-    case KEY_FACES: read_faces(rd, r, key->name, spec); break;
+    case KEY_FACES:
+        read_faces(rd, r, key->name, spec);
+        break;
+    case KEY_WORD:
+        read_word(r, key, value);
+        break;
+    case KEY_PATH:
+        read_path(rd, r, key, spec);
+        break;
+    case KEY_NAMES:
+        read_names(rd, r, key->name, spec);
+        break;
+    case KEY_CRINKLE:
+        read_crinkle(rd, r, key->name, spec);
+        break;
     }
     spec->key_place[k] = reader_place(r, key->name);
 }
@@ -178,8 +259,6 @@ static void read_primitive(reading *rd, const primitive_kind *kind, const toml_n
     for (int k = 0; k < kind->n_keys; k++)
         read_primitive_key(rd, &r, &spec, k);
     read_copies(rd, &r, &spec);
-    if (string_equal(kind->name, "box"))
-        reader_refuse(&r, "crinkle", "this version has flat sides only");
     glint_status status = reader_done(&r);
     if (status == GLINT_OK) status = primitive_add(&spec, component, facets, rd->errors);
     if (status == GLINT_OK && facets->n > MOST_FACETS)
@@ -193,18 +272,18 @@ static void read_primitive(reading *rd, const primitive_kind *kind, const toml_n
 
 static bool is_good_name(const char *name)
 {
-    static const char GOOD[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.+";
+    static const char GOOD[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.+";
     return name[0] && strspn(name, GOOD) == strlen(name) && strlen(name) <= 64;
 }
 
 bool reading_good_name(reading *rd, const char *what, const char *name, place where)
 {
     if (is_good_name(name)) return true;
-    reading_note(rd, errors_add(rd->errors, GLINT_INPUT, where,
-                                "'%.70s' cannot name a %s: it names columns of the output; expected "
-                                "up to 64 letters, digits, '_', '-', '.', '+'",
-                                name, what));
+    reading_note(rd,
+                 errors_add(rd->errors, GLINT_INPUT, where,
+                            "'%.70s' cannot name a %s: it names columns of the output; expected "
+                            "up to 64 letters, digits, '_', '-', '.', '+'",
+                            name, what));
     return false;
 }
 
@@ -319,8 +398,9 @@ static void read_components(reading *rd, reader *r, facet_list *facets)
     const toml_node *tables = reader_tables(r, "component");
     if (!tables) {
         if (!reader_has(r, "component") || r->status == GLINT_OK)
-            reader_fail(r, r->table->where, "there is no component; expected at least one "
-                                            "[[component]] with a primitive");
+            reader_fail(r, r->table->where,
+                        "there is no component; expected at least one "
+                        "[[component]] with a primitive");
         return;
     }
     if (tables->n_children > MOST_COMPONENTS) {
@@ -380,8 +460,7 @@ static void compile(reading *rd, facet_list *facets, place where)
         return;
     }
     for (int m = 0; m < sat->n_materials; m++)
-        sat->model_materials[m] =
-            (model_material){sat->materials[m].name, sat->materials[m].bands};
+        sat->model_materials[m] = (model_material){sat->materials[m].name, sat->materials[m].bands};
     for (int c = 0; c < sat->n_components; c++)
         sat->model_components[c] = (model_component){sat->components[c].name};
     glint_error error;

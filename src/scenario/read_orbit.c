@@ -6,22 +6,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const param_info AXIS = {"semi_major_axis_km", "km", "", 0, 1e7, PARAM_REQUIRED,
-                                PARAM_MIN_OPEN};
+static const param_info AXIS = {"semi_major_axis_km", "km",          "", 0, 1e7,
+                                PARAM_REQUIRED,       PARAM_MIN_OPEN};
 static const param_info ECCENTRICITY = {"eccentricity", "", "", 0, 1, PARAM_REQUIRED,
                                         PARAM_MAX_OPEN};
 static const param_info INCLINATION = {"inclination_deg", "deg", "", 0, 180, PARAM_REQUIRED, 0};
 static const param_info RAAN = {"raan_deg", "deg", "", -360, 360, PARAM_REQUIRED, 0};
-static const param_info PERIGEE = {"argument_of_perigee_deg", "deg", "", -360, 360, PARAM_REQUIRED,
-                                   0};
-static const param_info ANOMALY = {"mean_anomaly_deg", "deg", "", -INFINITY, INFINITY,
-                                   PARAM_REQUIRED, 0};
-static const param_info HEIGHT = {"height_km", "km", "above the equatorial radius", 0, 1e7,
-                                  PARAM_REQUIRED, PARAM_MIN_OPEN};
-static const param_info LATITUDE_ARGUMENT = {"argument_of_latitude_deg", "deg", "", -INFINITY,
-                                             INFINITY, PARAM_REQUIRED, 0};
-static const param_info GEO_LONGITUDE = {"geostationary_longitude_deg", "deg", "east positive",
-                                         -360, 360, PARAM_REQUIRED, 0};
+static const param_info PERIGEE = {
+    "argument_of_perigee_deg", "deg", "", -360, 360, PARAM_REQUIRED, 0};
+static const param_info ANOMALY = {"mean_anomaly_deg", "deg",          "", -INFINITY,
+                                   INFINITY,           PARAM_REQUIRED, 0};
+static const param_info HEIGHT = {
+    "height_km", "km", "above the equatorial radius", 0, 1e7, PARAM_REQUIRED, PARAM_MIN_OPEN};
+static const param_info LATITUDE_ARGUMENT = {
+    "argument_of_latitude_deg", "deg", "", -INFINITY, INFINITY, PARAM_REQUIRED, 0};
+static const param_info GEO_LONGITUDE = {
+    "geostationary_longitude_deg", "deg", "east positive", -360, 360, PARAM_REQUIRED, 0};
 
 /* The epoch, in TT s from the start; 0 (the start) where none is given. */
 static double read_epoch_s(reading *rd, reader *r)
@@ -54,8 +54,8 @@ static void read_kepler(reading *rd, reader *outer, const toml_node *table)
     reader_boolean(&r, "j2", true, &s->j2);
     s->orbit_epoch_s = read_epoch_s(rd, &r);
     s->orbit_source = ORBIT_KEPLER;
-    s->kepler = (kepler_elements){a_km * 1e3,  e,           inclination * DEG,
-                                  raan * DEG, perigee * DEG, anomaly * DEG};
+    s->kepler = (kepler_elements){a_km * 1e3,   e, inclination * DEG, raan * DEG, perigee * DEG,
+                                  anomaly * DEG};
     end_inner(&r, outer);
 }
 
@@ -79,8 +79,8 @@ static void read_circular(reading *rd, reader *outer, const toml_node *table)
     reader_boolean(&r, "j2", true, &s->j2);
     s->orbit_epoch_s = read_epoch_s(rd, &r);
     s->orbit_source = ORBIT_CIRCULAR;
-    s->kepler = (kepler_elements){EARTH_RADIUS_M + height_km * 1e3, 0, inclination * DEG,
-                                  raan * DEG, 0, u * DEG};
+    s->kepler = (kepler_elements){
+        EARTH_RADIUS_M + height_km * 1e3, 0, inclination * DEG, raan * DEG, 0, u * DEG};
     end_inner(&r, outer);
 }
 

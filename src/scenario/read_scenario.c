@@ -63,6 +63,7 @@ static void apply_overrides(reading *rd, toml_document *document, override_choic
 {
     for (size_t k = 0; k < rd->n_overrides; k++) {
         const bool for_model = belongs_to_model(rd->overrides[k]);
+        if (for_model && reading_override_waits(document, rd->overrides[k])) continue;
         if (which == OVERRIDE_ALL || for_model == (which == OVERRIDE_MODEL))
             reading_note(rd, toml_override(document, rd->overrides[k], rd->errors));
     }
@@ -77,9 +78,10 @@ static void count_steps(reading *rd, reader *r, double span_s)
     glint_scenario *s = rd->s;
     const double steps = floor(span_s / s->step_s + 1e-6);
     if (steps >= MOST)
-        reader_fail(r, reader_place(r, "step_s"),
-                    "this time span has %.3g steps of %g s; expected at most %g: take a longer step",
-                    steps, s->step_s, MOST);
+        reader_fail(
+            r, reader_place(r, "step_s"),
+            "this time span has %.3g steps of %g s; expected at most %g: take a longer step", steps,
+            s->step_s, MOST);
     else
         s->n_steps = (int64_t)steps + 1;
 }
@@ -92,15 +94,15 @@ static void check_last_year(reader *r, const run_clock *clock, double span_s)
     run_clock_utc(clock, span_s, &end);
     if (end.year > LAST_YEAR)
         reader_fail(r, reader_place(r, "duration_s"),
-                    "the run ends in the year %d; expected an end not after %d", end.year,
-                    LAST_YEAR);
+                    "the run ends in the year %d; expected an end up to %d, as far as the Sun's "
+                    "ephemeris holds",
+                    end.year, LAST_YEAR);
 }
 
 static void read_time(reading *rd, reader *root)
 {
-    enum { LAST_YEAR = 2100 };
-    static const param_info STEP = {"step_s", "s", "time between rows", 0, 1e9, PARAM_REQUIRED,
-                                    PARAM_MIN_OPEN};
+    static const param_info STEP = {"step_s",       "s",           "time between rows", 0, 1e9,
+                                    PARAM_REQUIRED, PARAM_MIN_OPEN};
     static const param_info DURATION = {"duration_s", "s", "length of the run", 0, 4.1e9, 0, 0};
     const toml_node *table = reader_table(root, "time", true);
     if (!table) return;
@@ -128,14 +130,8 @@ static void read_time(reading *rd, reader *root)
                         -span_s);
     }
     if (r.status == GLINT_OK && has_start && (has_end || has_duration) && has_step) {
-        glint_utc last;
+        s->span_s = span_s;
         run_clock_start(&start, span_s, s->dut1_s, &s->clock);
-        run_clock_utc(&s->clock, span_s, &last);
-        if (last.year > LAST_YEAR)
-            reader_fail(&r, reader_place(&r, "duration_s"),
-                        "the run ends in the year %d; expected an end up to %d, as far as the Sun's "
-                        "ephemeris holds",
-                        last.year, LAST_YEAR);
         count_steps(rd, &r, span_s);
         check_last_year(&r, &s->clock, span_s);
         if (s->clock.dubious)
@@ -153,11 +149,11 @@ static void read_observer(reading *rd, reader *root)
     static const param_info LATITUDE = {"latitude_deg", "deg", "geodetic, north positive", -90, 90,
                                         PARAM_REQUIRED, 0};
     static const param_info LONGITUDE = {"longitude_deg", "deg", "east positive", -360, 360,
-                                         PARAM_REQUIRED, 0};
+                                         PARAM_REQUIRED,  0};
     static const param_info HEIGHT = {"height_m", "m", "above the WGS84 ellipsoid", -10000, 100000,
-                                      0, 0};
-    static const param_info ELEVATION = {"min_elevation_deg", "deg", "lower is below the horizon",
-                                         -90, 90, 0, 0};
+                                      0,          0};
+    static const param_info ELEVATION = {
+        "min_elevation_deg", "deg", "lower is below the horizon", -90, 90, 0, 0};
     const toml_node *table = reader_table(root, "observer", true);
     if (!table) return;
     glint_scenario *s = rd->s;
@@ -166,9 +162,14 @@ static void read_observer(reading *rd, reader *root)
     s->site_name = "";
     reader_string(&r, "name", false, &s->site_name);
     reader_refuse(&r, "satellite", "this version observes from ground sites only");
-    reader_refuse(&r, "direction", "this version observes from ground sites only; known directions "
-                                   "are given by [geometry]");
-    if (!reader_has(&r, "satellite") && !reader_has(&r, "direction")) {
+    reader_refuse(&r, "direction",
+                  "this version observes from ground sites only; known directions "
+                  "are given by [geometry]");
+    if (reader_has(&r, "satellite") ||
+        reader_has(&r, "direction")) { /* the keys of a site are known */
+        reader_has(&r, LATITUDE.name), reader_has(&r, LONGITUDE.name);
+        reader_has(&r, HEIGHT.name), reader_has(&r, ELEVATION.name);
+    } else {
         reader_param(&r, &LATITUDE, &latitude);
         reader_param(&r, &LONGITUDE, &longitude);
         reader_param(&r, &HEIGHT, &height_m);
@@ -186,7 +187,7 @@ static void read_observer(reading *rd, reader *root)
 
 static void read_satellite(reading *rd, reader *root)
 {
-    static const char *const SHADOWS[] = {"none", "exact", "interpolated", "rays"};
+    static const char *const SHADOWS[] = {"exact", "none", "interpolated", "rays"};
     const toml_node *table = reader_table(root, "satellite", false);
     const bool tables_here = reader_has(root, "component") || reader_has(root, "materials") ||
                              reader_has(root, "materials_from");
@@ -196,11 +197,11 @@ static void read_satellite(reading *rd, reader *root)
         int shadows;
         named = reader_get(&r, "model", TOML_STRING, false, "the path of a model file");
         reader_choice(&r, "self_shadows", SHADOWS, 4, 0, &shadows);
-        if (shadows != 0)
+        if (shadows > SHADOWS_NONE)
             reader_fail(&r, reader_place(&r, "self_shadows"),
-                        "self_shadows = \"%s\" is not built yet: this version neglects the shadows "
-                        "that parts cast on each other; expected \"none\"",
+                        "self_shadows = \"%s\" is not built yet; expected \"exact\" or \"none\"",
                         SHADOWS[shadows]);
+        rd->s->self_shadows = shadows == SHADOWS_NONE ? SHADOWS_NONE : SHADOWS_EXACT;
         if (named && tables_here)
             reader_fail(&r, named->where,
                         "both a model file and a model's tables in this file are given; expected "
@@ -258,7 +259,8 @@ static void read_extinction(reading *rd, reader *r)
     }
     reader table = reader_start(node, "extinction", rd->errors);
     for (size_t k = 0; band_at(k); k++)
-        reader_has(&table, band_at(k)->name); /* bands that this run does not ask for may stand there */
+        reader_has(&table,
+                   band_at(k)->name); /* bands that this run does not ask for may stand there */
     for (int b = 0; b < s->n_bands; b++) {
         const param_info k = {s->bands[b]->name, "mag per airmass", "", 0, 10, PARAM_REQUIRED, 0};
         reader_param(&table, &k, &s->extinction[b]);
@@ -288,9 +290,9 @@ static void add_band(reading *rd, reader *r, const toml_node *node, const char *
             reader_fail(r, node->where, "band '%s' is listed twice", band->name);
             return;
         }
-    const magnitude_system chosen = !system                         ? band->system
+    const magnitude_system chosen = !system                        ? band->system
                                     : string_equal(system, "vega") ? SYSTEM_VEGA
-                                                                    : SYSTEM_AB;
+                                                                   : SYSTEM_AB;
     const double sun = band_sun_magnitude(band, chosen);
     if (isnan(sun)) {
         reader_fail(r, node->where,
@@ -325,6 +327,14 @@ static void read_bands(reading *rd, reader *r)
     }
 }
 
+static void refuse_extinction(reader *r)
+{
+    const toml_node *node = reader_find(r, "extinction");
+    if (node && (node->type != TOML_BOOLEAN || node->boolean))
+        reader_fail(r, node->where,
+                    "directions given by [geometry] have no airmass; expected extinction = false");
+}
+
 static void read_photometry(reading *rd, reader *root)
 {
     static const char *const DISCS[] = {"point", "uniform", "limb-darkened"};
@@ -344,7 +354,7 @@ static void read_photometry(reading *rd, reader *root)
         reader_fail(&r, earthshine->where,
                     "earthshine is not built yet: this version has sunlight only; expected false");
     if (rd->s->has_geometry)
-        reader_refuse(&r, "extinction", "directions given by [geometry] have no airmass");
+        refuse_extinction(&r);
     else
         read_extinction(rd, &r);
     reading_done(rd, &r);
@@ -370,8 +380,8 @@ static void read_output(reading *rd, reader *root)
 {
     static const char *const ROWS[] = {"all", "visible", "dark-site"};
     static const char *const SHARES[] = {"none", "material", "component", "both"};
-    static const param_info SUN = {"sun_elevation_max_deg", "deg", "a dark site has the Sun below",
-                                   -90, 90, -6, 0};
+    static const param_info SUN = {
+        "sun_elevation_max_deg", "deg", "a dark site has the Sun below", -90, 90, -6, 0};
     glint_scenario *s = rd->s;
     s->sun_elevation_max = -6 * DEG;
     s->shares = SHARES_MATERIAL;
@@ -418,6 +428,14 @@ static bool wants_moon(const glint_scenario *s)
     return attitude_wants(&s->attitude, DIRECTION_MOON);
 }
 
+static bool names_satellite(reader *root)
+{
+    /* all are asked for, so that all are known */
+    const bool table = reader_has(root, "satellite"), component = reader_has(root, "component"),
+               materials = reader_has(root, "materials"), from = reader_has(root, "materials_from");
+    return table || component || materials || from;
+}
+
 static void read_all(reading *rd, toml_document *document)
 {
     glint_scenario *s = rd->s;
@@ -435,10 +453,17 @@ static void read_all(reading *rd, toml_document *document)
         read_time(rd, &root);
         read_observer(rd, &root);
         read_orbit(rd, &root);
-        read_attitude(rd, &root);
+        s->has_attitude = !rd->orbit_only || reader_has(&root, "attitude");
+        if (s->has_attitude) read_attitude(rd, &root);
     }
+    if (s->has_extinction && s->min_elevation < 0)
+        reader_fail(
+            &root, reader_place(&root, "observer"),
+            "extinction is wanted and min_elevation_deg is below 0, where there is no airmass; "
+            "expected one of them to be left out");
     read_output(rd, &root);
-    read_satellite(rd, &root);
+    s->has_satellite = !rd->orbit_only || names_satellite(&root);
+    if (s->has_satellite) read_satellite(rd, &root);
     s->needs_moon = !s->has_geometry && rd->status == GLINT_OK && wants_moon(s);
     read_expectations(rd, &root);
     reader_refuse(&root, "observed", "comparing with an observed track comes later");
@@ -489,10 +514,11 @@ static glint_status finish(reading *rd, size_t first_error, glint_scenario **out
     return rd->status;
 }
 
-glint_status glint_scenario_read(const char *path, const char *const *overrides, size_t n_overrides,
-                                 glint_scenario **out, glint_errors *errors)
+static glint_status read_scenario(const char *path, const char *const *overrides,
+                                  size_t n_overrides, bool orbit_only, glint_scenario **out,
+                                  glint_errors *errors)
 {
-    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK};
+    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK, orbit_only};
     const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;
@@ -510,10 +536,23 @@ glint_status glint_scenario_read(const char *path, const char *const *overrides,
     return finish(&rd, first_error, out);
 }
 
-glint_status scenario_read_model(const char *path, const char *const *overrides,
-                                 size_t n_overrides, glint_scenario **out, glint_errors *errors)
+glint_status glint_scenario_read(const char *path, const char *const *overrides, size_t n_overrides,
+                                 glint_scenario **out, glint_errors *errors)
 {
-    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK};
+    return read_scenario(path, overrides, n_overrides, false, out, errors);
+}
+
+glint_status glint_scenario_read_orbit(const char *path, const char *const *overrides,
+                                       size_t n_overrides, glint_scenario **out,
+                                       glint_errors *errors)
+{
+    return read_scenario(path, overrides, n_overrides, true, out, errors);
+}
+
+glint_status scenario_read_model(const char *path, const char *const *overrides, size_t n_overrides,
+                                 glint_scenario **out, glint_errors *errors)
+{
+    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK, false};
     const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;

@@ -30,8 +30,8 @@ void reader_fail(reader *r, place where, const char *format, ...) GLINT_PRINTF(3
 /* The value of a key, or NULL; makes the key known. */
 const toml_node *reader_find(reader *r, const char *key);
 bool reader_has(reader *r, const char *key);
-/* The value if it is of that type; an error and NULL where it is of another, or required and absent.
- * `expected` says what was expected: "a string". */
+/* The value if it is of that type; an error and NULL where it is of another, or required and
+ * absent. `expected` says what was expected: "a string". */
 const toml_node *reader_get(reader *r, const char *key, toml_type type, bool required,
                             const char *expected);
 /* Place of the key's value, or of the table. */
@@ -63,7 +63,8 @@ const toml_node *reader_tables(reader *r, const char *key);
 /* For single nodes: n finite numbers; what: "size_m", for messages. */
 bool node_vector(const toml_node *node, const char *what, int n, double *out, reader *r);
 bool node_number(const toml_node *node, const char *what, double *out, reader *r);
-/* A key that is known but whose feature is not there yet: an error that says so when it is given. */
+/* A key that is known but whose feature is not there yet: an error that says so when it is given.
+ */
 void reader_refuse(reader *r, const char *key, const char *why);
 
 #endif

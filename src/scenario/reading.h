@@ -12,6 +12,7 @@ typedef struct reading {
     size_t n_overrides;
     glint_errors *errors;
     glint_status status; /* the worst so far */
+    bool orbit_only;     /* [attitude] and the satellite may be absent */
 } reading;
 
 /* Keeps the worst of the statuses. */
@@ -21,12 +22,17 @@ void reading_done(reading *rd, reader *r);
 /* Memory is out: notes it. */
 void reading_no_memory(reading *rd);
 /* Opens a document that the scenario keeps; NULL on error (noted). model: apply the overrides that
- * belong to a model; else those that do not (all, when the model's tables stand in the scenario). */
+ * belong to a model; else those that do not (all, when the model's tables stand in the scenario).
+ */
 toml_document *reading_open(reading *rd, const char *path, place asked_from);
+/* Whether a "materials.NAME...=value" is for a material of a file in materials_from: the document
+ * names such files and has no material of that name itself. */
+bool reading_override_waits(const toml_document *document, const char *assignment);
 /* Resolves a path that a node names, relative to its file; owned by the caller; NULL on error. */
 char *reading_path(reading *rd, const toml_node *node);
 
-/* A word of the vocabulary, or { ra_deg, dec_deg }, or { latitude_deg, longitude_deg, height_m }. */
+/* A word of the vocabulary, or { ra_deg, dec_deg }, or { latitude_deg, longitude_deg, height_m }.
+ */
 bool read_direction(reader *r, const char *key, bool required, direction *out);
 
 void read_orbit(reading *rd, reader *root);

@@ -15,11 +15,13 @@ enum { SCENARIO_MAX_BANDS = 16 };
 
 /* A material: its reflection in each band of the scenario. */
 typedef struct scenario_material {
-    const char *name;     /* borrowed from its document */
-    const char *source;   /* "" where not said */
-    place where;          /* of its table */
-    brdf_material *bands; /* owned; n_bands */
-    bool used;            /* by some facet */
+    const char *name;       /* borrowed from its document */
+    const char *source;     /* "" where not said */
+    place where;            /* of its table */
+    const toml_node *table; /* borrowed from its document */
+    brdf_material *bands;   /* owned; n_bands */
+    double holds_um[2]; /* wavelengths from and to which the parameters hold; 0 where not said */
+    bool used;          /* by some facet */
 } scenario_material;
 
 /* A part of the satellite and how it turns. */
@@ -36,9 +38,9 @@ typedef struct satellite {
     int n_materials;                /* those in use only, in the order of the files */
     scenario_component *components; /* owned; in the order of the file */
     int n_components;
-    int *order;                         /* owned; parents before children */
-    model_material *model_materials;    /* owned; what the compiled model borrows */
-    model_component *model_components;  /* owned */
+    int *order;                        /* owned; parents before children */
+    model_material *model_materials;   /* owned; what the compiled model borrows */
+    model_component *model_components; /* owned */
     model model;
 } satellite;
 
@@ -48,6 +50,8 @@ typedef enum orbit_source {
     ORBIT_CIRCULAR,
     ORBIT_GEOSTATIONARY
 } orbit_source;
+
+typedef enum self_shadows { SHADOWS_EXACT, SHADOWS_NONE } self_shadows;
 
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
@@ -67,9 +71,9 @@ typedef struct expectation {
     int64_t row;
     double t_s;
     const char *column;
-    bool empty;             /* the cell must be empty (from a table) */
+    bool empty;                       /* the cell must be empty (from a table) */
     double value, absolute, relative; /* |got - value| <= absolute + relative |value| */
-    const char *source;     /* "" where not said */
+    const char *source;               /* "" where not said */
 } expectation;
 
 /* A condition on a column: lo <= value <= hi. */
@@ -93,29 +97,30 @@ typedef struct requirement {
 typedef struct expected_table {
     csv_table csv;
     place where;
-    int n_columns;           /* compared columns: those with a tolerance */
-    const char **columns;     /* owned array; borrowed names */
+    int n_columns;               /* compared columns: those with a tolerance */
+    const char **columns;        /* owned array; borrowed names */
     double *absolute, *relative; /* owned */
 } expected_table;
 
 struct glint_scenario {
     toml_document **documents; /* owned; the scenario first, then what it names */
     int n_documents;
-    char **overrides;          /* owned array of owned copies */
+    char **overrides; /* owned array of owned copies */
     size_t n_overrides;
-    const char *title;         /* "" where not said */
-    char *text;                /* owned; the scenario's file, for the output's header */
+    const char *title; /* "" where not said */
+    char *text;        /* owned; the scenario's file, for the output's header */
 
-    bool has_geometry;       /* directions given: no time, site, orbit, attitude */
+    bool has_geometry; /* directions given: no time, site, orbit, attitude */
     geometry_table geometry;
 
     run_clock clock;
+    double span_s; /* from start to end, TT */
     double step_s;
     int64_t n_steps;
 
     const char *site_name; /* "" where not said */
     earth_site site;
-    double min_elevation;  /* rad */
+    double min_elevation; /* rad */
 
     orbit_source orbit_source;
     tle tle;
@@ -125,9 +130,11 @@ struct glint_scenario {
     double geostationary_longitude;
     orbit *orbit; /* owned */
 
+    bool has_attitude, has_satellite; /* false only where they may be absent, and are */
     attitude attitude;
     bool needs_moon; /* attitude or a hinge asks for the Moon */
     satellite satellite;
+    self_shadows self_shadows;
 
     int n_bands;
     const band_info *bands[SCENARIO_MAX_BANDS];
@@ -153,8 +160,8 @@ struct glint_scenario {
 
 /* Reads the model file at `path` alone, as a scenario of that satellite without anything else: for
  * reports. bands: as in the scenario. */
-glint_status scenario_read_model(const char *path, const char *const *overrides,
-                                 size_t n_overrides, glint_scenario **out, glint_errors *errors);
+glint_status scenario_read_model(const char *path, const char *const *overrides, size_t n_overrides,
+                                 glint_scenario **out, glint_errors *errors);
 /* True when the file holds a model, not a scenario: no [time] and no [geometry], but components or
  * materials. */
 bool scenario_is_model(const toml_document *document);

@@ -1,5 +1,5 @@
-// toml.cpp: turns toml++'s tree into the plain one of toml.h. Everything that can throw stands inside
-// parse(), whose callers get a status.
+// toml.cpp: turns toml++'s tree into the plain one of toml.h. Everything that can throw stands
+// inside parse(), whose callers get a status.
 #include "scenario/toml.h"
 
 #include "base/text.h"
@@ -127,7 +127,8 @@ int by_place(const void *a, const void *b)
 {
     const place &x = static_cast<const toml_node *>(a)->key_where;
     const place &y = static_cast<const toml_node *>(b)->key_where;
-    return x.line != y.line ? (x.line < y.line ? -1 : 1) : (x.column > y.column) - (x.column < y.column);
+    return x.line != y.line ? (x.line < y.line ? -1 : 1)
+                            : (x.column > y.column) - (x.column < y.column);
 }
 
 void restore_order(toml_node *node)
@@ -135,15 +136,16 @@ void restore_order(toml_node *node)
     for (int i = 0; i < node->n_children; i++)
         restore_order(&node->children[i]);
     if (node->type == TOML_TABLE && node->n_children > 1)
-        std::qsort(node->children, static_cast<size_t>(node->n_children), sizeof(toml_node), by_place);
+        std::qsort(node->children, static_cast<size_t>(node->n_children), sizeof(toml_node),
+                   by_place);
 }
 
-// Most parts of one dotted key. toml++ limits how deep values nest, but not how many parts a key has,
-// and trees as deep as that would be walked by recursion.
+// Most parts of one dotted key. toml++ limits how deep values nest, but not how many parts a key
+// has, and trees as deep as that would be walked by recursion.
 constexpr int MOST_KEY_PARTS = 16;
 
-// The index behind the string that begins with the quote at `at`, or of the end of its line where it
-// is not closed.
+// The index behind the string that begins with the quote at `at`, or of the end of its line where
+// it is not closed.
 size_t skip_string(std::string_view text, size_t at)
 {
     const char quote = text[at];
@@ -154,8 +156,7 @@ size_t skip_string(std::string_view text, size_t at)
             at++;
         else if (text[at] == '\n' && !many_lines)
             return at;
-        else if (text[at] == quote &&
-                 (!many_lines || text.substr(at, 3) == std::string(3, quote)))
+        else if (text[at] == quote && (!many_lines || text.substr(at, 3) == std::string(3, quote)))
             return at + width;
     }
     return text.size();
@@ -168,8 +169,12 @@ size_t find_deep_key(std::string_view text)
     for (size_t at = 0; at < text.size(); at++) {
         switch (text[at]) {
         case '"':
-        case '\'': at = skip_string(text, at) - 1; break;
-        case '#': at = std::min(text.find('\n', at), text.size()) - 1; break;
+        case '\'':
+            at = skip_string(text, at) - 1;
+            break;
+        case '#':
+            at = std::min(text.find('\n', at), text.size()) - 1;
+            break;
         case '.':
             if (++parts > MOST_KEY_PARTS) return at;
             break;
@@ -179,8 +184,11 @@ size_t find_deep_key(std::string_view text)
         case ']':
         case '{':
         case '}':
-        case '\n': parts = 1; break;
-        default: break;
+        case '\n':
+            parts = 1;
+            break;
+        default:
+            break;
         }
     }
     return std::string_view::npos;
@@ -244,7 +252,8 @@ void replace(toml_node *into, toml_node *from)
     *from = toml_node{};
 }
 
-// Puts a new value where an old one stands, or goes down into both while the new one is only a path.
+// Puts a new value where an old one stands, or goes down into both while the new one is only a
+// path.
 glint_status put(toml_node *into, toml_node *from, const char *assignment, glint_errors *errors)
 {
     if (from->type == TOML_TABLE && !from->is_inline &&
@@ -305,7 +314,8 @@ extern "C" glint_status toml_read(const char *path, place asked_from, toml_docum
     if (status)
         errors_take(errors, &error, asked_from);
     else
-        status = parse(std::string_view(document->text, size), document->path, &document->root, errors);
+        status =
+            parse(std::string_view(document->text, size), document->path, &document->root, errors);
     if (status) {
         toml_free(document);
         return status;
@@ -354,13 +364,20 @@ extern "C" const toml_node *toml_child(const toml_node *table, const char *key)
 extern "C" const char *toml_type_name(toml_type type)
 {
     switch (type) {
-    case TOML_TABLE: return "a table";
-    case TOML_ARRAY: return "an array";
-    case TOML_STRING: return "a string";
-    case TOML_INTEGER: return "a whole number";
-    case TOML_FLOAT: return "a number";
-    case TOML_BOOLEAN: return "true or false";
-    case TOML_TIME: return "a date or time";
+    case TOML_TABLE:
+        return "a table";
+    case TOML_ARRAY:
+        return "an array";
+    case TOML_STRING:
+        return "a string";
+    case TOML_INTEGER:
+        return "a whole number";
+    case TOML_FLOAT:
+        return "a number";
+    case TOML_BOOLEAN:
+        return "true or false";
+    case TOML_TIME:
+        return "a date or time";
     }
     return "a value";
 }

@@ -1,5 +1,5 @@
-/* toml.h: a TOML file as a plain tree that keeps the place of every key and value. toml++ behind a C
- * face; no C++ type or exception passes it. */
+/* toml.h: a TOML file as a plain tree that keeps the place of every key and value. toml++ behind a
+ * C face; no C++ type or exception passes it. */
 #ifndef GLINT_SCENARIO_TOML_H
 #define GLINT_SCENARIO_TOML_H
 
@@ -28,17 +28,17 @@ typedef struct toml_moment {
 typedef struct toml_node toml_node;
 struct toml_node {
     toml_type type;
-    bool is_inline;       /* a table written in braces */
-    place where;          /* of the value */
-    place key_where;      /* of the key; of the value where it has none */
-    char *key;            /* owned; NULL for array elements and the root */
-    toml_node *children;  /* owned; of tables and arrays, in the order of the file */
+    bool is_inline;      /* a table written in braces */
+    place where;         /* of the value */
+    place key_where;     /* of the key; of the value where it has none */
+    char *key;           /* owned; NULL for array elements and the root */
+    toml_node *children; /* owned; of tables and arrays, in the order of the file */
     int n_children;
-    char *string;         /* owned; TOML_STRING, terminated; no zero byte inside */
-    double number;        /* TOML_INTEGER and TOML_FLOAT: finite */
-    int64_t integer;      /* TOML_INTEGER */
-    bool boolean;         /* TOML_BOOLEAN */
-    toml_moment moment;   /* TOML_TIME */
+    char *string;       /* owned; TOML_STRING, terminated; no zero byte inside */
+    double number;      /* TOML_INTEGER and TOML_FLOAT: finite */
+    int64_t integer;    /* TOML_INTEGER */
+    bool boolean;       /* TOML_BOOLEAN */
+    toml_moment moment; /* TOML_TIME */
 };
 
 /* A file and its tree. `path` is what the places of its nodes point at. */
@@ -49,8 +49,8 @@ typedef struct toml_document {
 } toml_document;
 
 /* Reads a regular file. asked_from: place of the value that names it, for messages. Errors:
- * GLINT_INPUT: unreadable; the first syntax error with its place; a key of more than 16 parts; nan and
- * inf among the values, and strings with a zero byte, all of them. */
+ * GLINT_INPUT: unreadable; the first syntax error with its place; a key of more than 16 parts; nan
+ * and inf among the values, and strings with a zero byte, all of them. */
 glint_status toml_read(const char *path, place asked_from, toml_document **out,
                        glint_errors *errors);
 void toml_free(toml_document *document);

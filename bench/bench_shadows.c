@@ -1,0 +1,359 @@
+/* bench_shadows.c: how many facet-samples a second exact two-sided shadows take (facets x time
+ * steps, those that are not lit or not seen counted), on one core, over random attitudes at a phase
+ * angle of 60 deg.
+ *
+ *   craft    a bus with two wings of panels (white on the back), a dish, a tank and units on its
+ * walls boxes    boxes in any position, some of them through others: closed convex bodies plates
+ * plates in any position: nothing is closed, everything overlaps lump     a closed mesh of
+ * triangles with hills and dales
+ *
+ * usage: bench_shadows [MODEL FACETS]     one case instead of all
+ * Prints a table: M facet-samples/s; ns a facet that is lit and seen; how large a part of the lit
+ * and seen area is left. */
+#include "timing.h"
+
+#include "base/constants.h"
+#include "base/vec.h"
+#include "facets/visibility.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { ROUNDS = 5 };
+static const double AT_LEAST_S = 0.1; /* of each measurement */
+static const double PHASE_DEG = 60.0;
+
+static void fail(const char *what)
+{
+    fprintf(stderr, "bench_shadows: %s\n", what);
+    exit(1);
+}
+
+static void *allocate(size_t n, size_t size)
+{
+    void *memory = calloc(n, size);
+    if (!memory) fail("out of memory");
+    return memory;
+}
+
+/* splitmix64 (Steele, Lea, Flood 2014), as a number from 0 to 1. */
+static double random_number(uint64_t *state)
+{
+    uint64_t x = *state += UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
+}
+
+/* A uniformly distributed rotation (Shoemake 1992, Graphics Gems III). */
+static void random_rotation(uint64_t *state, double out[9])
+{
+    const double u = random_number(state), a = TWO_PI * random_number(state);
+    const double b = TWO_PI * random_number(state);
+    const double q[4] = {sqrt(u) * cos(b), sqrt(1 - u) * sin(a), sqrt(1 - u) * cos(a),
+                         sqrt(u) * sin(b)};
+    mat_from_quat(q, out);
+}
+
+/* --- models --- */
+
+static void add_facet(facet_list *list, const double (*vertices)[3], int n)
+{
+    double tangent[3];
+    sub3(vertices[1], vertices[0], tangent);
+    if (facet_list_add(list, vertices, n, tangent, 0, 0, NULL)) fail("a facet was refused");
+}
+
+/* A box with a corner at `corner` and edges u, v, w (right-handed). */
+static void add_box(facet_list *list, const double corner[3], const double edge[3][3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const double *u = edge[(axis + 1) % 3], *v = edge[(axis + 2) % 3];
+        double face[4][3];
+        for (int side = 0; side < 2; side++) {
+            copy3(corner, face[0]);
+            if (side) add3(face[0], edge[axis], face[0]);
+            add3(face[0], side ? u : v, face[1]);
+            add3(face[1], side ? v : u, face[2]);
+            add3(face[0], side ? v : u, face[3]);
+            add_facet(list, (const double(*)[3])face, 4);
+        }
+    }
+}
+
+static void add_straight_box(facet_list *list, const double lo[3], const double hi[3])
+{
+    const double edge[3][3] = {{hi[0] - lo[0], 0, 0}, {0, hi[1] - lo[1], 0}, {0, 0, hi[2] - lo[2]}};
+    add_box(list, lo, edge);
+}
+
+/* Two plates back to back. */
+static void add_panel(facet_list *list, const double corner[3], const double u[3],
+                      const double v[3])
+{
+    double front[4][3], back[4][3];
+    copy3(corner, front[0]);
+    add3(front[0], u, front[1]);
+    add3(front[1], v, front[2]);
+    add3(front[0], v, front[3]);
+    for (int k = 0; k < 4; k++)
+        copy3(front[3 - k], back[k]);
+    add_facet(list, (const double(*)[3])front, 4);
+    add_facet(list, (const double(*)[3])back, 4);
+}
+
+/* Two wings along y, each of panels in rows of two, turned about y. */
+static void add_wings(facet_list *list, int n_rows)
+{
+    const double turn = 0.4, pitch_m = 8.0 / n_rows, gap_m = 0.02;
+    const double across[3] = {cos(turn), 0, sin(turn)};
+    for (int wing = 0; wing < 2; wing++)
+        for (int row = 0; row < n_rows; row++)
+            for (int column = 0; column < 2; column++) {
+                const double y = (wing ? 2.0 : -2.0 - 8.0) + pitch_m * row;
+                const double x = column - 1.0, v[3] = {0, pitch_m - gap_m, 0};
+                double corner[3] = {x * across[0], y, x * across[2]}, u[3];
+                scale3(across, 1.0 - gap_m, u);
+                add_panel(list, corner, u, v);
+            }
+}
+
+/* A paraboloid of 1.2 m radius, open towards -x, of rings of quadrangles. */
+static void add_dish(facet_list *list, int n_rings, int n_sides)
+{
+    const double radius_m = 1.2, depth_m = 0.4, hub = 0.1;
+    for (int ring = 0; ring < n_rings; ring++)
+        for (int side = 0; side < n_sides; side++) {
+            double quad[4][3];
+            for (int k = 0; k < 4; k++) {
+                const double r = hub + (1 - hub) * (ring + (k == 1 || k == 2)) / n_rings;
+                const double a = TWO_PI * ((side + (k >= 2)) % n_sides) / n_sides;
+                quad[k][0] = 2.0 - depth_m * r * r;
+                quad[k][1] = -radius_m * r * cos(a);
+                quad[k][2] = radius_m * r * sin(a);
+            }
+            add_facet(list, (const double(*)[3])quad, 4);
+        }
+}
+
+/* A prism along z on the bus. */
+static void add_tank(facet_list *list, int n_sides)
+{
+    enum { MOST_SIDES = 4096 };
+    static double bottom[MOST_SIDES][3], top[MOST_SIDES][3];
+    const double radius_m = 0.6, from_m = 1.6, to_m = 3.0;
+    for (int k = 0; k < n_sides; k++) {
+        const double a = TWO_PI * k / n_sides;
+        const double x = radius_m * cos(a), y = radius_m * sin(a);
+        top[k][0] = bottom[n_sides - 1 - k][0] = x;
+        top[k][1] = bottom[n_sides - 1 - k][1] = y;
+        top[k][2] = to_m, bottom[n_sides - 1 - k][2] = from_m;
+    }
+    for (int k = 0; k < n_sides; k++) {
+        const double *p = top[k], *q = top[(k + 1) % n_sides];
+        const double wall[4][3] = {
+            {p[0], p[1], from_m}, {q[0], q[1], from_m}, {q[0], q[1], to_m}, {p[0], p[1], to_m}};
+        add_facet(list, wall, 4);
+    }
+    add_facet(list, (const double(*)[3])top, n_sides);
+    add_facet(list, (const double(*)[3])bottom, n_sides);
+}
+
+/* Facets in about these parts: panels and dish a third each, tank and units a sixth each. */
+static void make_craft(facet_list *list, int n, uint64_t *state)
+{
+    static const double lo[3] = {-1, -1.2, -1.5}, hi[3] = {1, 1.2, 1.5};
+    const int n_sides = (int)(sqrt(n / 3.0) + 2), n_wall = n / 6;
+    add_straight_box(list, lo, hi);
+    add_wings(list, n / 24);
+    add_dish(list, n / 3 / n_sides, n_sides);
+    add_tank(list, n_wall);
+    while (list->n < n) { /* units on the +y and -y walls */
+        const double size = 2.0 / sqrt(n), x = -1 + (2 - size) * random_number(state);
+        const double z = -1.5 + (3 - size) * random_number(state);
+        const double y = random_number(state) < 0.5 ? -1.2 - 0.5 * size : 1.2;
+        const double from[3] = {x, y, z}, to[3] = {x + size, y + 0.5 * size, z + size};
+        add_straight_box(list, from, to);
+    }
+}
+
+static void make_boxes(facet_list *list, int n, uint64_t *state)
+{
+    const double reach = 3.0, size = 1.4 * cbrt(30.0 / n);
+    while (list->n < n) {
+        double turn[9], edge[3][3], corner[3];
+        random_rotation(state, turn);
+        for (int j = 0; j < 3; j++) {
+            corner[j] = reach * (2 * random_number(state) - 1);
+            scale3(turn + 3 * j, size * (0.2 + 0.8 * random_number(state)), edge[j]);
+        }
+        add_box(list, corner, (const double(*)[3])edge);
+    }
+}
+
+static void make_plates(facet_list *list, int n, uint64_t *state)
+{
+    const double reach = 3.0, size = 4.0 * sqrt(10.0 / n);
+    while (list->n < n) {
+        double turn[9], plate[4][3];
+        random_rotation(state, turn);
+        for (int j = 0; j < 3; j++)
+            plate[0][j] = reach * (2 * random_number(state) - 1);
+        add_scaled3(plate[0], size * (0.2 + 0.8 * random_number(state)), turn, plate[1]);
+        add_scaled3(plate[1], size * (0.2 + 0.8 * random_number(state)), turn + 3, plate[2]);
+        sub3(plate[2], plate[1], plate[3]);
+        add3(plate[3], plate[0], plate[3]);
+        add_facet(list, (const double(*)[3])plate, 4);
+    }
+}
+
+/* A point of the lump: rows from pole to pole, columns around. */
+static void lump_point(int rows, int columns, int row, int column, double out[3])
+{
+    const double theta = PI * row / rows, phi = TWO_PI * (column % columns) / columns;
+    const double r = 1 + 0.3 * sin(5 * phi) * sin(theta) * sin(theta) + 0.25 * cos(6 * theta);
+    out[0] = r * sin(theta) * cos(phi), out[1] = r * sin(theta) * sin(phi), out[2] = r * cos(theta);
+    if (row == 0 || row == rows) out[0] = out[1] = 0;
+}
+
+static void make_lump(facet_list *list, int n, uint64_t *state)
+{
+    (void)state;
+    const int rows = (int)lround(sqrt(n / 4.0)) + 1, columns = n / (2 * (rows - 1));
+    for (int row = 0; row < rows; row++)
+        for (int column = 0; column < columns; column++) {
+            double quad[4][3];
+            lump_point(rows, columns, row, column, quad[0]);
+            lump_point(rows, columns, row + 1, column, quad[1]);
+            lump_point(rows, columns, row + 1, column + 1, quad[2]);
+            lump_point(rows, columns, row, column + 1, quad[3]);
+            if (row < rows - 1) add_facet(list, (const double(*)[3])quad, 3);
+            copy3(quad[0], quad[1]);
+            double half[3][3];
+            copy3(quad[0], half[0]), copy3(quad[2], half[1]), copy3(quad[3], half[2]);
+            if (row > 0) add_facet(list, (const double(*)[3])half, 3);
+        }
+}
+
+typedef struct model_case {
+    const char *name;
+    void (*make)(facet_list *list, int n, uint64_t *state);
+} model_case;
+
+static const model_case MODELS[] = {
+    {"craft", make_craft}, {"boxes", make_boxes}, {"plates", make_plates}, {"lump", make_lump}};
+static const int FACETS[] = {72, 1000, 10000};
+
+/* --- measuring --- */
+
+typedef struct scene {
+    model model;
+    visibility *plan;
+    visibility_scratch *scratch;
+    visibility_pose pose;
+    int steps;
+    double (*sun)[3], (*observer)[3]; /* owned; of each step */
+    double *visible;                  /* owned */
+} scene;
+
+static void run(void *data)
+{
+    scene *s = data;
+    for (int k = 0; k < s->steps; k++)
+        if (visibility_fill(s->plan, s->scratch, &s->pose, s->sun[k], s->observer[k], k % BRDF_TILE,
+                            s->visible, NULL))
+            fail("out of memory");
+}
+
+static void make_directions(scene *s)
+{
+    const double sun[3] = {sin(PHASE_DEG * DEG), 0, cos(PHASE_DEG * DEG)}, observer[3] = {0, 0, 1};
+    uint64_t state = 1;
+    s->sun = allocate((size_t)s->steps, sizeof *s->sun);
+    s->observer = allocate((size_t)s->steps, sizeof *s->observer);
+    for (int k = 0; k < s->steps; k++) {
+        double turn[9];
+        random_rotation(&state, turn);
+        mat_vec(turn, sun, s->sun[k]);
+        mat_vec(turn, observer, s->observer[k]);
+    }
+}
+
+/* Facets that are lit and seen, over all steps; *left: part of their projected area that is left.
+ */
+static double count_active(scene *s, double *left)
+{
+    double n = 0, all = 0, sum = 0;
+    for (int k = 0; k < s->steps; k++) {
+        visibility_fill(s->plan, s->scratch, &s->pose, s->sun[k], s->observer[k], 0, s->visible,
+                        NULL);
+        for (int j = 0; j < s->model.n_facets; j++) {
+            const facet *f = &s->model.polygons.items[j];
+            const double ci = dot3(f->normal, s->sun[k]), cr = dot3(f->normal, s->observer[k]);
+            if (ci <= BRDF_EDGE || cr <= BRDF_EDGE) continue;
+            n++;
+            all += ci * cr * f->area_m2;
+            sum += ci * cr * f->area_m2 * s->visible[(size_t)j * BRDF_TILE];
+        }
+    }
+    *left = sum / all;
+    return n;
+}
+
+static void run_case(const model_case *c, int n_facets)
+{
+    static const double reflectance = 0.5;
+    brdf_lobe lobe = {.model = brdf_model_named("lambert"), .weight = 1};
+    brdf_material band = {1, &lobe};
+    const model_material material = {"grey", &band};
+    const model_component component = {"all"};
+    visibility_component whole = {.parent = -1};
+    facet_list facets = {0};
+    scene s = {.steps = n_facets > 5000 ? 32 : 256};
+    uint64_t state = 7;
+    lobe.model->prepare(&reflectance, lobe.coef, NULL);
+    mat_identity(whole.pose.body_component);
+    s.pose = whole.pose;
+    c->make(&facets, n_facets, &state);
+    if (model_compile(&facets, &material, 1, &component, 1, 1, &s.model, NULL)) fail("no model");
+    const double from_s = cpu_s();
+    if (visibility_make(&s.model, &whole, &s.plan, NULL)) fail("no plan");
+    const double plan_s = cpu_s() - from_s;
+    if (visibility_scratch_make(s.plan, &s.scratch, NULL)) fail("no scratch");
+    s.visible = allocate((size_t)s.model.n_facets * BRDF_TILE, sizeof *s.visible);
+    make_directions(&s);
+    job fill = {.run = run, .data = &s};
+    measure(&fill, 1, ROUNDS, AT_LEAST_S);
+    double left;
+    const double samples = (double)s.model.n_facets * s.steps, active = count_active(&s, &left);
+    printf("%-7s %7d %9d %8.2f %12.2f %12.0f %9.4f %14.9f\n", c->name, s.model.n_facets,
+           visibility_n_exposed(s.plan), plan_s * 1e3, samples / fill.least * 1e-6,
+           fill.least / active * 1e9, active / samples, left);
+    fflush(stdout);
+    visibility_scratch_free(s.scratch);
+    visibility_free(s.plan);
+    model_free(&s.model);
+    free(s.visible);
+    free(s.sun);
+    free(s.observer);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 1 && argc != 3) {
+        fputs("usage: bench_shadows [MODEL FACETS]\n", stderr);
+        return 2;
+    }
+    int n_run = 0;
+    printf("model    facets   exposed  plan/ms  Msamples/s    ns/active    active      left\n");
+    for (size_t m = 0; m < sizeof MODELS / sizeof *MODELS; m++)
+        for (size_t f = 0; f < sizeof FACETS / sizeof *FACETS; f++) {
+            if (argc == 3 && (strcmp(argv[1], MODELS[m].name) || atoi(argv[2]) != FACETS[f]))
+                continue;
+            run_case(&MODELS[m], FACETS[f]);
+            n_run++;
+        }
+    if (n_run == 0) fputs("bench_shadows: there is no such case\n", stderr);
+    return n_run ? 0 : 2;
+}

@@ -1,0 +1,487 @@
+/* curved_tile.c: the light of curved facets in one tile. */
+#include "base/vec.h"
+#include "facets/curved.h"
+#include "facets/curved_parts.h"
+
+#include <stdint.h>
+
+/* Facets that are handed to the kernel together. Their number is fixed, so that a lane's sum is the
+ * same whatever the other lanes are. */
+enum { CHUNK = 16 };
+
+/* Pairs of directions with the matter that they meet, on their way through the kernel. */
+typedef struct batch {
+    const brdf_material *material;
+    _Alignas(64) double i[3][BRDF_TILE], r[3][BRDF_TILE]; /* in the frame of the piece: t, b, n */
+    double x[BRDF_TILE], y[BRDF_TILE]; /* slopes of the matter's normal in that frame */
+    double area_m2[BRDF_TILE];
+    int lane[BRDF_TILE]; /* of the light that they come from */
+    int n;
+    double sum[BRDF_TILE]; /* by these lanes */
+} batch;
+
+/* The pairs in the frames of their own normals: n = (x, y, 1) made unit, and the tangent (1, 0, 0)
+ * made orthogonal to it. */
+static void turn_into_frames(const batch *b, brdf_light *light)
+{
+    for (int k = 0; k < BRDF_TILE; k++) {
+        const double x = b->x[k], y = b->y[k];
+        const double c = 1.0 + y * y, q = c + x * x, n_scale = 1.0 / sqrt(q);
+        const double b_scale = 1.0 / sqrt(c), t_scale = n_scale * b_scale;
+        const double i0 = b->i[0][k], i1 = b->i[1][k], i2 = b->i[2][k];
+        const double r0 = b->r[0][k], r1 = b->r[1][k], r2 = b->r[2][k];
+        light->i[0][k] = (c * i0 - x * (y * i1 + i2)) * t_scale;
+        light->i[1][k] = (i1 - y * i2) * b_scale;
+        light->i[2][k] = (x * i0 + y * i1 + i2) * n_scale;
+        light->r[0][k] = (c * r0 - x * (y * r1 + r2)) * t_scale;
+        light->r[1][k] = (r1 - y * r2) * b_scale;
+        light->r[2][k] = (x * r0 + y * r1 + r2) * n_scale;
+    }
+}
+
+static void flush(batch *b)
+{
+    static const double zero = 0.0, one = 1.0;
+    static const brdf_facets unit = {.n = 1,
+                                     .normal = {&zero, &zero, &one},
+                                     .tangent = {&one, &zero, &zero},
+                                     .bitangent = {&zero, &one, &zero},
+                                     .area = &one};
+    if (b->n == 0) return;
+    for (int k = b->n; k < BRDF_TILE; k++) { /* spare lanes */
+        for (int j = 0; j < 3; j++)
+            b->i[j][k] = b->i[j][0], b->r[j][k] = b->r[j][0];
+        b->x[k] = b->y[k] = b->area_m2[k] = 0.0;
+    }
+    brdf_light light;
+    turn_into_frames(b, &light);
+    brdf_light_finish(&light);
+    double sum[BRDF_TILE] = {0};
+    brdf_material_tile(b->material, &unit, &light, b->area_m2, sum);
+    for (int k = 0; k < b->n; k++)
+        b->sum[b->lane[k]] += sum[k];
+    b->n = 0;
+}
+
+/* Adds matter of that area with a pair of directions in the frame of its piece. */
+static void push(batch *b, int lane, const double i[3], const double r[3], double x, double y,
+                 double area_m2)
+{
+    const int k = b->n++;
+    for (int j = 0; j < 3; j++)
+        b->i[j][k] = i[j], b->r[j][k] = r[j];
+    b->x[k] = x;
+    b->y[k] = y;
+    b->area_m2[k] = area_m2;
+    b->lane[k] = lane;
+    if (b->n == BRDF_TILE) flush(b);
+}
+
+/* One facet in the light of one lane. */
+typedef struct scene {
+    batch *batch;
+    int lane;
+    double i[3], r[3];          /* in the frame of the piece: t, b, n */
+    double width[2], narrow[2]; /* of the lobe, rad, and 1 / that */
+    double reach;               /* of the lobe, in widths */
+    double highlight[2];        /* slopes of the bisector; of triangles only */
+    double part;                /* of the facet that is lit and seen */
+} scene;
+
+static double square(double x, double y)
+{
+    return x * x + y * y;
+}
+
+/* Whether the lobe is smooth over a piece; squares in widths of the lobe. */
+static bool is_fine(const scene *s, double extent2, double distance2)
+{
+    if (extent2 <= CURVED_FINE * CURVED_FINE) return true;
+    const double extent = sqrt(extent2), wing = CURVED_NEAR + extent / CURVED_FAR;
+    const double past = s->reach + extent, enough = wing < past ? wing : past;
+    return distance2 >= enough * enough;
+}
+
+/* --- triangles of slopes --- */
+
+/* A triangle of slopes in widths of the lobe, seen from the highlight. */
+typedef struct triangle {
+    double x[3], y[3];
+    int level; /* halvings so far */
+} triangle;
+
+/* The density of matter at slopes x, y. */
+static double density_at(const curved_piece *p, double x, double y)
+{
+    const double q = 1.0 + x * x + y * y;
+    if (p->kind == SURFACE_SPHERE) return 1.0 / (q * sqrt(q));
+    if (p->kind != SURFACE_PARABOLOID) return 1.0;
+    const double look = p->view[0] * x + p->view[1] * y + p->view[2], look2 = look * look;
+    return sqrt(q) / (look2 * look2);
+}
+
+/* Adds matter at a place that is given in widths of the lobe from the highlight. */
+static void push_slopes(const scene *s, const curved_piece *p, double from_x, double from_y,
+                        double area_m2)
+{
+    const double x = s->highlight[0] + from_x * s->width[0];
+    const double y = s->highlight[1] + from_y * s->width[1];
+    push(s->batch, s->lane, s->i, s->r, x, y, area_m2 * density_at(p, x, y));
+}
+
+/* Integrates over a triangle, with rules whose points all lie inside: three points, exact for
+ * polynomials of degree 2, in the wings of the lobe; seven points, exact for degree 5 (Radon 1948,
+ * Monatshefte fuer Mathematik 52, 286), in its core. */
+static void push_triangle(const scene *s, const curved_piece *p, const triangle *t)
+{
+    static const double ROOT_15 = 3.872983346207417;
+    const double reach[2] = {(1.0 + ROOT_15) / 7.0, (1.0 - ROOT_15) / 7.0}; /* of corner - middle */
+    const double weight[2] = {(155.0 - ROOT_15) / 1200.0, (155.0 + ROOT_15) / 1200.0};
+    const double area_m2 = s->part * p->area_m2 / (double)(1ull << t->level);
+    const double x = (t->x[0] + t->x[1] + t->x[2]) / 3.0, y = (t->y[0] + t->y[1] + t->y[2]) / 3.0;
+    const bool core = square(x, y) < CURVED_CORE * CURVED_CORE;
+    if (core) push_slopes(s, p, x, y, 9.0 / 40.0 * area_m2);
+    for (int ring = 0; ring < (core ? 2 : 1); ring++)
+        for (int k = 0; k < 3; k++) {
+            const double out = core ? reach[ring] : 0.5;
+            push_slopes(s, p, x + out * (t->x[k] - x), y + out * (t->y[k] - y),
+                        (core ? weight[ring] : 1.0 / 3.0) * area_m2);
+        }
+}
+
+/* True when the lobe is smooth over the triangle. *longest: the side that faces this corner is the
+ * longest. */
+static bool measure(const scene *s, const triangle *t, int *longest)
+{
+    const double x = (t->x[0] + t->x[1] + t->x[2]) / 3.0, y = (t->y[0] + t->y[1] + t->y[2]) / 3.0;
+    const double corner0 = square(t->x[0] - x, t->y[0] - y);
+    const double corner1 = square(t->x[1] - x, t->y[1] - y);
+    const double corner2 = square(t->x[2] - x, t->y[2] - y);
+    const double extent2 = corner0 > corner1 ? corner0 : corner1;
+    if (is_fine(s, extent2 > corner2 ? extent2 : corner2, square(x, y))) return true;
+    const double side0 = square(t->x[1] - t->x[2], t->y[1] - t->y[2]);
+    const double side1 = square(t->x[2] - t->x[0], t->y[2] - t->y[0]);
+    const double side2 = square(t->x[0] - t->x[1], t->y[0] - t->y[1]);
+    *longest = side0 >= side1 && side0 >= side2 ? 0 : side1 >= side2 ? 1 : 2;
+    return false;
+}
+
+static triangle half_of(const triangle *t, int longest, bool second)
+{
+    const int b = (longest + 1) % 3, c = (longest + 2) % 3;
+    const double x = 0.5 * (t->x[b] + t->x[c]), y = 0.5 * (t->y[b] + t->y[c]);
+    triangle half = *t;
+    half.x[second ? b : c] = x;
+    half.y[second ? b : c] = y;
+    half.level++;
+    return half;
+}
+
+static void add_triangle(const scene *s, const curved_piece *p)
+{
+    enum { DEEPEST = 60 }; /* 30 halvings of each side: 1e-9 of it */
+    triangle stack[DEEPEST + 1];
+    int n = 1;
+    for (int c = 0; c < 3; c++) {
+        stack[0].x[c] = (p->corner[c][0] - s->highlight[0]) * s->narrow[0];
+        stack[0].y[c] = (p->corner[c][1] - s->highlight[1]) * s->narrow[1];
+    }
+    stack[0].level = 0;
+    while (n > 0) {
+        const triangle t = stack[--n];
+        int longest;
+        if (t.level == DEEPEST || measure(s, &t, &longest)) {
+            push_triangle(s, p, &t);
+            continue;
+        }
+        stack[n++] = half_of(&t, longest, false);
+        stack[n++] = half_of(&t, longest, true);
+    }
+}
+
+/* --- arcs --- */
+
+/* Turns v against the turn of the arc's frame: gives it in the frame that was turned by 2 atan(u).
+ */
+static void turn_back(const curved_piece *p, double u, const double v[3], double out[3])
+{
+    const double c = (1.0 - u * u) / (1.0 + u * u), sine = 2.0 * u / (1.0 + u * u);
+    const double along = dot3(p->axis, v) * (1.0 - c);
+    double cross[3];
+    cross3(p->axis, v, cross);
+    for (int j = 0; j < 3; j++)
+        out[j] = c * v[j] - sine * cross[j] + along * p->axis[j];
+}
+
+/* Integrates over the angle from 2 atan(lo) to 2 atan(hi) with Gauss's five points. */
+static void push_arc(const scene *s, const curved_piece *p, double lo, double hi)
+{
+    static const double POINT[5] = {-0.9061798459386640, -0.5384693101056831, 0.0,
+                                    0.5384693101056831, 0.9061798459386640};
+    static const double WEIGHT[5] = {0.1184634425280945, 0.2393143352496832, 0.2844444444444444,
+                                     0.2393143352496832, 0.1184634425280945};
+    const double whole = 4.0 * atan(p->end);
+    for (int k = 0; k < 5; k++) {
+        const double u = 0.5 * (lo + hi) + 0.5 * POINT[k] * (hi - lo);
+        const double part = WEIGHT[k] * (hi - lo) * 2.0 / (1.0 + u * u) / whole;
+        double i[3], r[3];
+        turn_back(p, u, s->i, i);
+        turn_back(p, u, s->r, r);
+        push(s->batch, s->lane, i, r, 0.0, 0.0, s->part * p->area_m2 * part);
+    }
+}
+
+static void add_arc(const scene *s, const curved_piece *p)
+{
+    enum { DEEPEST = 48 };
+    double stack[DEEPEST + 1][2], h[3], turned[3];
+    int depth[DEEPEST + 1], n = 1;
+    /* widths of the lobe per rad: the normal moves along axis x normal */
+    const double speed = hypot(p->axis[1] * s->narrow[0], p->axis[0] * s->narrow[1]);
+    add3(s->i, s->r, h);
+    stack[0][0] = -p->end, stack[0][1] = p->end;
+    depth[0] = 0;
+    while (n > 0) {
+        const double lo = stack[--n][0], hi = stack[n][1], middle = 0.5 * (lo + hi);
+        const int level = depth[n];
+        turn_back(p, middle, h, turned);
+        const double extent = (hi - lo) / (1.0 + middle * middle) * speed;
+        const double x = turned[0] * s->narrow[0], y = turned[1] * s->narrow[1];
+        const bool behind = !(turned[2] > 0.0);
+        const double distance2 = (x * x + y * y) / (turned[2] * turned[2]);
+        if (behind || is_fine(s, extent * extent, distance2) || level == DEEPEST) {
+            push_arc(s, p, lo, hi);
+            continue;
+        }
+        for (int half = 0; half < 2; half++, n++) {
+            stack[n][0] = half ? middle : lo;
+            stack[n][1] = half ? hi : middle;
+            depth[n] = level + 1;
+        }
+    }
+}
+
+/* --- facets --- */
+
+/* A tile's light as seen from the facets: a cone about the bisectors. */
+typedef struct spread {
+    double middle[3];    /* unit; 0 where the bisectors look every way */
+    double cosine, sine; /* of the widest angle of a bisector from it */
+} spread;
+
+static spread spread_of(const brdf_light *light)
+{
+    spread s = {{0, 0, 0}, -1.0, 0.0};
+    for (int k = 0; k < BRDF_TILE; k++)
+        for (int j = 0; j < 3; j++)
+            s.middle[j] += light->h[j][k];
+    unit3(s.middle, s.middle);
+    double least = 1.0;
+    for (int k = 0; k < BRDF_TILE; k++) {
+        const double c = light->h[0][k] * s.middle[0] + light->h[1][k] * s.middle[1] +
+                         light->h[2][k] * s.middle[2];
+        if (!(c > 0.0)) return s;
+        least = fmin(least, c / light->hlen[k]);
+    }
+    s.cosine = least;
+    s.sine = sqrt(fmax(0.0, 1.0 - least * least));
+    return s;
+}
+
+/* False when the cosine of no bisector to the normal is above the root of cosine2. */
+static bool can_be_near(const spread *s, const double normal[3], double cosine2)
+{
+    if (!(s->cosine > 0.0)) return true;
+    const double c = dot3(s->middle, normal), limit = sqrt(cosine2);
+    /* cos(reach + spread); the two together beyond 90 deg: do not judge */
+    const double bound = limit * s->cosine - sqrt(1.0 - cosine2) * s->sine;
+    return !(bound > 0.0) || c >= bound - 1e-12;
+}
+
+static void vector_at(const double *const v[3], int k, double out[3])
+{
+    out[0] = v[0][k], out[1] = v[1][k], out[2] = v[2][k];
+}
+
+static void lane_at(const double v[3][BRDF_TILE], int k, double out[3])
+{
+    out[0] = v[0][k], out[1] = v[1][k], out[2] = v[2][k];
+}
+
+/* The state of one tile. */
+typedef struct tile {
+    const curved_span *span;
+    const curved_lobe *lobe;
+    const brdf_facets *facets;
+    const brdf_light *light;
+    spread spread;
+    double widest, longest_reach; /* of the lobe: width, rad; reach in any lane, in widths */
+    batch batch;
+} tile;
+
+/* Past it nothing is left of the lobe, in widths. Lobes about the mirror direction, and those that
+ * know the length of i + r, are wider in terms of the normal where the phase angle is large. */
+static double reach_of(const tile *t, int lane)
+{
+    return t->lobe->reach * 2.0 / t->light->hlen[lane];
+}
+
+static void add_pieces(tile *t, int k, int lane, const double frame[9], double part)
+{
+    scene s = {.batch = &t->batch,
+               .lane = lane,
+               .width = {t->lobe->width[0], t->lobe->width[1]},
+               .narrow = {1.0 / t->lobe->width[0], 1.0 / t->lobe->width[1]},
+               .reach = reach_of(t, lane),
+               .part = part};
+    double i[3], r[3], h[3];
+    lane_at(t->light->i, lane, i);
+    lane_at(t->light->r, lane, r);
+    for (int p = t->span->first_piece[k]; p < t->span->first_piece[k + 1]; p++) {
+        const curved_piece *piece = &t->span->pieces[p];
+        const bool is_arc = piece->kind == SURFACE_CONE;
+        const double *own = is_arc ? piece->frame : frame;
+        mat_vec(own, i, s.i);
+        mat_vec(own, r, s.r);
+        if (is_arc) {
+            add_arc(&s, piece);
+            continue;
+        }
+        add3(s.i, s.r, h);
+        s.highlight[0] = h[0] / h[2], s.highlight[1] = h[1] / h[2];
+        add_triangle(&s, piece);
+    }
+}
+
+/* How far from facet k the highlight may be, in widths, before its normal alone will do. */
+static double near_of(const curved_lobe *lobe, int k, double reach)
+{
+    const double wing = CURVED_NEAR + lobe->extent[k] / CURVED_FLAT, past = reach + lobe->extent[k];
+    return wing < past ? wing : past;
+}
+
+/* Cosines between the bisectors of all lanes and a normal, times the lengths of i + r. False when
+ * the square of none is above cosine2. */
+static bool bisector_cosines(const brdf_light *light, const double normal[3], double cosine2,
+                             double out[BRDF_TILE])
+{
+    const double n0 = normal[0], n1 = normal[1], n2 = normal[2];
+    int64_t any = 0; /* as wide as a double, so that it fits the vectors */
+    for (int k = 0; k < BRDF_TILE; k++) {
+        const double c = n0 * light->h[0][k] + n1 * light->h[1][k] + n2 * light->h[2][k];
+        out[k] = c;
+        any |= -(int64_t)(c > 0.0) & -(int64_t)(c * c > cosine2 * light->hh[k]);
+    }
+    return any != 0;
+}
+
+/* True when the highlight of a lane is so near to the facet that its normal alone will not do. hn:
+ * i + r along the normal. */
+static bool is_near(const tile *t, int k, int lane, const double frame[9], double hn)
+{
+    if (!(hn > 0.0)) return false;
+    const curved_lobe *lobe = t->lobe;
+    double h[3];
+    lane_at(t->light->h, lane, h);
+    const double x = dot3(frame, h) / lobe->width[0], y = dot3(frame + 3, h) / lobe->width[1];
+    const double near = near_of(lobe, k, reach_of(t, lane));
+    return square(x, y) < near * near * hn * hn;
+}
+
+static bool is_lit(const tile *t, const double normal[3], int lane)
+{
+    double i[3], r[3];
+    lane_at(t->light->i, lane, i);
+    lane_at(t->light->r, lane, r);
+    return dot3(i, normal) > BRDF_EDGE && dot3(r, normal) > BRDF_EDGE;
+}
+
+static void fill_left(const double *seen, double left[BRDF_TILE])
+{
+    for (int lane = 0; lane < BRDF_TILE; lane++)
+        left[lane] = seen ? seen[lane] : 1.0;
+}
+
+/* Integrates facet k for the lanes whose highlight is near, and takes these lanes out of `left`,
+ * which gets what is left of `seen` (NULL: of all 1). False when there are none, and `left` is as
+ * it was. */
+static bool add_near_lanes(tile *t, int k, const double *seen, double left[BRDF_TILE])
+{
+    if (t->lobe->extent[k] == 0.0) return false;
+    double frame[9], hn[BRDF_TILE];
+    vector_at(t->facets->tangent, k, frame);
+    vector_at(t->facets->bitangent, k, frame + 3);
+    vector_at(t->facets->normal, k, frame + 6);
+    const double slope = t->widest * near_of(t->lobe, k, t->longest_reach); /* at most */
+    const double cosine2 = 1.0 / (1.0 + slope * slope);
+    if (!can_be_near(&t->spread, frame + 6, cosine2) ||
+        !bisector_cosines(t->light, frame + 6, cosine2, hn))
+        return false;
+    bool any = false;
+    for (int lane = 0; lane < BRDF_TILE; lane++) {
+        if (!is_near(t, k, lane, frame, hn[lane]) || !is_lit(t, frame + 6, lane)) continue;
+        if (!any) fill_left(seen, left);
+        any = true;
+        const double part = left[lane];
+        left[lane] = 0.0;
+        if (part > 0.0) add_pieces(t, k, lane, frame, part);
+    }
+    return any;
+}
+
+static brdf_facets facets_from(const brdf_facets *facets, int first, int n)
+{
+    brdf_facets out = {.n = n, .area = facets->area + first};
+    for (int j = 0; j < 3; j++) {
+        out.normal[j] = facets->normal[j] + first;
+        out.tangent[j] = facets->tangent[j] + first;
+        out.bitangent[j] = facets->bitangent[j] + first;
+    }
+    return out;
+}
+
+/* One lobe against which facets are large. */
+static void add_lobe(const curved_span *span, const curved_lobe *lobe,
+                     const brdf_material *material, const brdf_facets *facets,
+                     const brdf_light *light, const double *visible, double sum[BRDF_TILE])
+{
+    tile t = {.span = span, .lobe = lobe, .facets = facets, .light = light};
+    t.spread = spread_of(light);
+    t.widest = fmax(lobe->width[0], lobe->width[1]);
+    for (int lane = 0; lane < BRDF_TILE; lane++)
+        t.longest_reach = fmax(t.longest_reach, reach_of(&t, lane));
+    t.batch.material = material;
+    for (int first = 0; first < span->n; first += CHUNK) {
+        _Alignas(64) double left[CHUNK][BRDF_TILE];
+        const int n = span->n - first < CHUNK ? span->n - first : CHUNK;
+        const double *seen = visible ? visible + (size_t)first * BRDF_TILE : NULL;
+        bool any = false;
+        for (int k = 0; k < n; k++) {
+            if (any) fill_left(seen ? seen + k * BRDF_TILE : NULL, left[k]);
+            if (!add_near_lanes(&t, first + k, seen ? seen + k * BRDF_TILE : NULL, left[k]))
+                continue;
+            for (int j = 0; j < k && !any; j++)
+                fill_left(seen ? seen + j * BRDF_TILE : NULL, left[j]);
+            any = true;
+        }
+        const brdf_facets some = facets_from(facets, first, n);
+        brdf_material_tile(material, &some, light, any ? left[0] : seen, sum);
+    }
+    flush(&t.batch);
+    for (int lane = 0; lane < BRDF_TILE; lane++)
+        sum[lane] += t.batch.sum[lane];
+}
+
+void curved_span_tile(const curved_span *span, int band, const brdf_material *material,
+                      const brdf_facets *facets, const brdf_light *light, const double *visible,
+                      double sum[BRDF_TILE])
+{
+    const curved_lobe *lobes = span->lobes + span->first_lobe[band];
+    for (int k = 0; k < material->n_lobes; k++) {
+        const brdf_material one = {.n_lobes = 1, .lobes = &material->lobes[k]};
+        if (lobes[k].active)
+            add_lobe(span, &lobes[k], &one, facets, light, visible, sum);
+        else
+            brdf_material_tile(&one, facets, light, visible, sum);
+    }
+}

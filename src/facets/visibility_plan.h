@@ -1,0 +1,67 @@
+/* visibility_plan.h: what is known of shadows from the model alone; private to visibility*.c. */
+#ifndef GLINT_FACETS_VISIBILITY_PLAN_H
+#define GLINT_FACETS_VISIBILITY_PLAN_H
+
+#include "facets/solids.h"
+#include "facets/visibility.h"
+
+/* Something that casts one convex shadow: a polygon, or a closed convex body. */
+typedef struct occluder {
+    int component;
+    int first, n; /* its corners, in plan.corners: of a polygon in order, of a body in any */
+    int facet;    /* a polygon lies in its plane, anticlockwise seen from outside; -1 for a body */
+    bool both_sides; /* a polygon: else it only counts where its facet is turned to the light: where
+                        light goes through a closed body, it meets such a facet */
+    int first_edge, n_edges; /* a body's, in plan.edges */
+} occluder;
+
+/* A facet that something can come before at some time. Component frame. */
+typedef struct exposed_facet {
+    int facet, component;
+    int own;                    /* the occluder that it is part of */
+    int first, n;               /* its corners, in plan.rings */
+    double normal[3], offset_m; /* unit; normal . point of the plane */
+    double contact_m;           /* what rises no higher over the plane lies in it */
+} exposed_facet;
+
+/* A facet of those around a vertex that form a closed fan (visibility_fans.h). */
+typedef struct fan_blade {
+    int facet, occluder;
+} fan_blade;
+
+enum { NODE_CHILDREN = 8 };
+
+/* A node of the trees over the occluders: its children are all nodes or all occluders. There is a
+ * tree for every group of components that do not move to each other. Children come after their
+ * parents. */
+typedef struct plan_node {
+    bool leaf;                /* its children are occluders */
+    int n;                    /* children */
+    int child[NODE_CHILDREN]; /* indices of nodes or occluders */
+} plan_node;
+
+/* Vertices, occluders and exposed facets are in the order of the trees: what is near in space is
+ * near in memory. */
+struct visibility {
+    int n_facets, n_components, n_vertices, n_corners, n_occluders, n_nodes, n_roots, n_exposed;
+    double (*vertices)[3];  /* owned; m, component frame; those of a component side by side */
+    int *first_vertex;      /* owned; n_components + 1 */
+    double *normals;        /* owned; x of all facets, then y, then z: component frame */
+    int *first_facet;       /* owned; n_components + 1 */
+    exposed_facet *exposed; /* owned */
+    bool *is_exposed;       /* owned; n_facets */
+    int *rings;             /* owned; n_corners vertices: corners of the facets */
+    occluder *occluders;    /* owned */
+    int *corners;           /* owned; n_corners vertices: corners of the occluders */
+    solid_edge *edges;      /* owned; of the bodies */
+    int *first_blade;       /* owned; n_vertices + 1 */
+    fan_blade *blades;      /* owned; those of a vertex side by side; none where there is no fan */
+    plan_node *nodes;       /* owned */
+    int *roots;             /* owned */
+    double size_m;          /* greatest distance from the body's origin */
+    double near_m;          /* rounding error of coordinates, for polygon.h */
+    int most_corners;       /* of an occluder or a facet */
+    int most_edges;         /* of a body */
+};
+
+#endif

@@ -1,0 +1,298 @@
+#include "facets/visibility_view.h"
+
+#include "base/vec.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Margin of boxes in floats, over the model's size: a float is off by 6e-8 of the size at most, a
+ * sum of three products by a few times that. */
+#define FLOAT_MARGIN 1e-6
+
+bool view_allocate(view *v, const visibility *plan)
+{
+    const size_t n_vertices = (size_t)plan->n_vertices, n_nodes = (size_t)plan->n_nodes;
+    v->axes = malloc((size_t)plan->n_components * sizeof *v->axes);
+    v->shift_m = malloc((size_t)plan->n_components * sizeof *v->shift_m);
+    v->vertices = malloc(n_vertices * sizeof *v->vertices);
+    v->cosine = malloc((size_t)plan->n_facets * sizeof *v->cosine);
+    v->nodes = malloc(n_nodes * sizeof *v->nodes);
+    v->points = malloc((size_t)plan->n_corners * sizeof *v->points);
+    v->rings = malloc((size_t)plan->n_occluders * sizeof *v->rings);
+    v->next = malloc(n_vertices * sizeof *v->next);
+    return v->axes && v->shift_m && v->vertices && v->cosine && v->nodes && v->points && v->rings &&
+           v->next;
+}
+
+void view_free(view *v)
+{
+    free(v->axes);
+    free(v->shift_m);
+    free(v->vertices);
+    free(v->cosine);
+    free(v->nodes);
+    free(v->points);
+    free(v->rings);
+    free(v->next);
+}
+
+/* --- placing --- */
+
+/* Right-handed axes with z along a unit vector; x is near the axis that is farthest from it. */
+static void basis_along(const double z[3], double basis[9])
+{
+    int least = 0;
+    for (int j = 1; j < 3; j++)
+        if (fabs(z[j]) < fabs(z[least])) least = j;
+    double across[3] = {0, 0, 0};
+    across[least] = 1.0;
+    copy3(z, basis + 6);
+    perp3(across, z, basis);
+    cross3(basis + 6, basis, basis + 3);
+}
+
+/* out = axis . vector for n vectors. */
+LANES_CLONES static void project(const double axis[3], const double *x, const double *y,
+                                 const double *z, int n, double *out)
+{
+    const double a = axis[0], b = axis[1], c = axis[2];
+    for (int k = 0; k < n; k++)
+        out[k] = a * x[k] + b * y[k] + c * z[k];
+}
+
+static void place_component(const visibility *plan, const visibility_pose *pose, int c, view *v)
+{
+    double *axes = v->axes[c], *shift_m = v->shift_m[c];
+    mat_mul(v->basis, pose->body_component, axes);
+    mat_vec(v->basis, pose->origin_m, shift_m);
+    for (int k = plan->first_vertex[c]; k < plan->first_vertex[c + 1]; k++) {
+        mat_vec(axes, plan->vertices[k], v->vertices[k]);
+        add3(v->vertices[k], shift_m, v->vertices[k]);
+    }
+    const double *x = plan->normals + plan->first_facet[c], *y = x + plan->n_facets;
+    project(axes + 6, x, y, y + plan->n_facets, plan->first_facet[c + 1] - plan->first_facet[c],
+            v->cosine + plan->first_facet[c]);
+}
+
+/* --- boxes --- */
+
+/* One box in doubles. */
+typedef struct box3 {
+    double lo_x, hi_x, lo_y, hi_y, hi_z;
+} box3;
+
+static const box3 EMPTY = {INFINITY, -INFINITY, INFINITY, -INFINITY, -INFINITY};
+
+static inline double lower(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double higher(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline void take_in(box3 *box, const double p[3])
+{
+    box->lo_x = lower(box->lo_x, p[0]), box->hi_x = higher(box->hi_x, p[0]);
+    box->lo_y = lower(box->lo_y, p[1]), box->hi_y = higher(box->hi_y, p[1]);
+    box->hi_z = higher(box->hi_z, p[2]);
+}
+
+/* Copies the corners of a polygon that counts in this view: a facet of a closed body only where it
+ * is turned to the one who looks, and none where it is edge-on, since then it hides nothing. */
+static box3 place_polygon(const visibility *plan, const occluder *o, view *v, view_ring *ring)
+{
+    const double cosine = v->cosine[o->facet];
+    const bool backwards = cosine < 0.0;
+    const int *corners = plan->corners + o->first;
+    box3 box = EMPTY;
+    *ring = (view_ring){o->first, 0};
+    if (!(cosine > BRDF_EDGE || (o->both_sides && cosine < -BRDF_EDGE))) return box;
+    ring->n = o->n;
+    for (int k = 0; k < o->n; k++) {
+        const double *p = v->vertices[corners[backwards ? o->n - 1 - k : k]];
+        copy3(p, v->points[o->first + k]);
+        take_in(&box, p);
+    }
+    return box;
+}
+
+static box3 place_body(const visibility *plan, const occluder *o, const view *v, view_ring *ring)
+{
+    box3 box = EMPTY;
+    *ring = (view_ring){o->first, VIEW_NOT_TRACED};
+    for (int k = o->first; k < o->first + o->n; k++)
+        take_in(&box, v->vertices[plan->corners[k]]);
+    return box;
+}
+
+static box3 place_occluder(const visibility *plan, view *v, int k)
+{
+    const occluder *o = &plan->occluders[k];
+    return o->facet < 0 ? place_body(plan, o, v, &v->rings[k])
+                        : place_polygon(plan, o, v, &v->rings[k]);
+}
+
+static box3 box_of_node(const view_node *node)
+{
+    box3 box = EMPTY;
+    for (int j = 0; j < NODE_CHILDREN; j++) {
+        box.lo_x = lower(box.lo_x, (double)node->lo_x[j]);
+        box.hi_x = higher(box.hi_x, (double)node->hi_x[j]);
+        box.lo_y = lower(box.lo_y, (double)node->lo_y[j]);
+        box.hi_y = higher(box.hi_y, (double)node->hi_y[j]);
+        box.hi_z = higher(box.hi_z, (double)node->hi_z[j]);
+    }
+    return box;
+}
+
+static void put_box(view_node *node, int j, const box3 *box, double margin_m)
+{
+    node->lo_x[j] = (float)(box->lo_x - margin_m);
+    node->hi_x[j] = (float)(box->hi_x + margin_m);
+    node->lo_y[j] = (float)(box->lo_y - margin_m);
+    node->hi_y[j] = (float)(box->hi_y + margin_m);
+    node->hi_z[j] = (float)(box->hi_z + margin_m);
+}
+
+static void bound(const visibility *plan, view *v)
+{
+    const double margin_m = FLOAT_MARGIN * plan->size_m;
+    for (int k = plan->n_nodes - 1; k >= 0; k--) { /* children come after their parents */
+        const plan_node *node = &plan->nodes[k];
+        for (int j = 0; j < NODE_CHILDREN; j++) {
+            box3 box = EMPTY;
+            if (j < node->n)
+                box = node->leaf ? place_occluder(plan, v, node->child[j])
+                                 : box_of_node(&v->nodes[node->child[j]]);
+            put_box(&v->nodes[k], j, &box, node->leaf ? margin_m : 0.0);
+        }
+    }
+}
+
+void view_set(const visibility *plan, const visibility_pose *poses, const double towards_body[3],
+              view *v)
+{
+    if (v->valid && memcmp(v->towards_body, towards_body, sizeof v->towards_body) == 0) return;
+    copy3(towards_body, v->towards_body);
+    basis_along(towards_body, v->basis);
+    for (int c = 0; c < plan->n_components; c++)
+        place_component(plan, &poses[c], c, v);
+    bound(plan, v);
+    v->valid = true;
+}
+
+/* --- outlines of bodies --- */
+
+/* Walks along the edges between the facets that are turned to the one who looks and those that are
+ * not: around a convex body they form one ring. Returns its length, 0 where they do not. */
+static int trace(const visibility *plan, const occluder *o, view *v)
+{
+    int start = -1, n_edges = 0, n = 0;
+    for (int e = o->first_edge; e < o->first_edge + o->n_edges; e++) {
+        const solid_edge *edge = &plan->edges[e];
+        const bool left = v->cosine[edge->left] > 0.0, right = v->cosine[edge->right] > 0.0;
+        if (left == right) continue;
+        start = left ? edge->from : edge->to;
+        v->next[start] = left ? edge->to : edge->from;
+        n_edges++;
+    }
+    int at = start;
+    while (n < n_edges && n < o->n) {
+        copy3(v->vertices[at], v->points[o->first + n++]);
+        at = v->next[at];
+        if (at == start) break;
+    }
+    return at == start && n == n_edges ? n : 0;
+}
+
+view_ring view_outline(const visibility *plan, view *v, int k)
+{
+    if (v->rings[k].n == VIEW_NOT_TRACED) v->rings[k].n = trace(plan, &plan->occluders[k], v);
+    return v->rings[k];
+}
+
+/* --- the shaft before a facet --- */
+
+/* The shaft in floats; `high_x`, `high_y`: which ends of a box rise highest over the facet's plane.
+ */
+typedef struct float_shaft {
+    float lo_x, hi_x, lo_y, hi_y, a, b, c, d;
+    bool high_x, high_y;
+} float_shaft;
+
+LANES_CLONES static int walk(const plan_node *nodes, const view_node *boxes, const float_shaft *s,
+                             int root, int *stack, int *out)
+{
+    int n = 0, n_stack = 1;
+    stack[0] = root;
+    while (n_stack > 0) {
+        const int k = stack[--n_stack];
+        const plan_node *node = &nodes[k];
+        const view_node *box = &boxes[k];
+        const float8 x = s->high_x ? box->hi_x : box->lo_x, y = s->high_y ? box->hi_y : box->lo_y;
+        const int8 marks = (box->lo_x < s->hi_x) & (box->hi_x > s->lo_x) & (box->lo_y < s->hi_y) &
+                           (box->hi_y > s->lo_y) &
+                           (s->a * x + s->b * y + s->c * box->hi_z + s->d > 0.0f);
+        int *list = node->leaf ? out + n : stack + n_stack, count = 0;
+        for (int j = 0; j < NODE_CHILDREN;
+             j++) { /* without branches, that would be guessed wrong */
+            list[count] = node->child[j];
+            count -= marks[j]; /* -1 where it holds */
+        }
+        if (node->leaf) {
+            n += count;
+            continue;
+        }
+        for (int j = 0; j < count; j++) /* the first is the last to be needed */
+            __builtin_prefetch(&boxes[list[j]]);
+        n_stack += count;
+    }
+    return n;
+}
+
+int view_candidates(const visibility *plan, const view *v, const shaft *s, int *nodes, int *out)
+{
+    const double margin_m = FLOAT_MARGIN * plan->size_m;
+    const float_shaft rough = {.lo_x = (float)(s->lo_x - margin_m),
+                               .hi_x = (float)(s->hi_x + margin_m),
+                               .lo_y = (float)(s->lo_y - margin_m),
+                               .hi_y = (float)(s->hi_y + margin_m),
+                               .a = (float)s->normal[0],
+                               .b = (float)s->normal[1],
+                               .c = (float)s->normal[2],
+                               .d = (float)(margin_m - s->offset_m - s->contact_m),
+                               .high_x = s->normal[0] > 0.0,
+                               .high_y = s->normal[1] > 0.0};
+    int n = 0;
+    for (int k = 0; k < plan->n_roots; k++)
+        n += walk(plan->nodes, v->nodes, &rough, plan->roots[k], nodes, out + n);
+    for (int k = 0; k < n; k++) {
+        const double *first = v->points[v->rings[out[k]].first];
+        __builtin_prefetch(first);
+        __builtin_prefetch(first + 8);
+    }
+    return n;
+}
+
+LANES_CLONES shaft_relation view_relate(const shaft *s, const double (*points)[3], int n)
+{
+    double lowest = INFINITY, highest = -INFINITY;
+    for (int k = 0; k < n; k++) {
+        const double height_m = dot3(s->normal, points[k]) - s->offset_m;
+        lowest = lower(lowest, height_m);
+        highest = higher(highest, height_m);
+    }
+    const bool below = highest <= s->contact_m, crosses = lowest < 0.0;
+    for (int side = 0; !below && side < s->n_fours; side++) {
+        const double4 a = s->a[side], b = s->b[side], c = s->c[side];
+        mask4 inside = {0};
+        for (int k = 0; k < n; k++)
+            inside |= a * points[k][0] + b * points[k][1] + c > 0.0;
+        if (!(inside[0] & inside[1] & inside[2] & inside[3]))
+            return (shaft_relation){true, below, crosses};
+    }
+    return (shaft_relation){false, below, crosses};
+}

@@ -1,0 +1,78 @@
+#include "lightcurve/tile.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void *aligned(size_t n, size_t size)
+{
+    const size_t bytes = (n * size + 63) / 64 * 64;
+    void *memory = aligned_alloc(64, bytes ? bytes : 64);
+    if (memory) memset(memory, 0, bytes ? bytes : 64);
+    return memory;
+}
+
+glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_error *error)
+{
+    *out = NULL;
+    if (s->self_shadows == SHADOWS_NONE) return GLINT_OK;
+    const glint_status status = satellite_plan_shadows(&s->satellite, out, error);
+    if (!status && visibility_is_trivial(*out)) {
+        visibility_free(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+glint_status tile_worker_make(const glint_scenario *s, const visibility *plan, tile_worker *w,
+                              glint_error *error)
+{
+    const model *m = &s->satellite.model;
+    const size_t n_components = (size_t)m->n_components;
+    *w = (tile_worker){.plan = plan};
+    w->lights = aligned(n_components, sizeof *w->lights);
+    w->x = aligned((size_t)m->n_bands * (size_t)m->n_spans * TILE, sizeof *w->x);
+    w->geometry.component_gcrs = calloc(n_components, sizeof *w->geometry.component_gcrs);
+    if (!w->lights || !w->x || !w->geometry.component_gcrs) return error_no_memory(error);
+    if (!plan) return GLINT_OK;
+    w->visible = aligned((size_t)m->n_facets * TILE, sizeof *w->visible);
+    w->geometry.poses = calloc(TILE * n_components, sizeof *w->geometry.poses);
+    if (!w->visible || !w->geometry.poses) return error_no_memory(error);
+    return visibility_scratch_make(plan, &w->scratch, error);
+}
+
+void tile_worker_free(tile_worker *w)
+{
+    free(w->lights);
+    free(w->x);
+    free(w->geometry.component_gcrs);
+    free(w->geometry.poses);
+    free(w->visible);
+    visibility_scratch_free(w->scratch);
+    *w = (tile_worker){0};
+}
+
+/* The fraction of every facet that is lit and seen, in the lanes whose rows are bright. */
+static glint_status find_visible(const glint_scenario *s, tile_worker *w, glint_error *error)
+{
+    const size_t n_components = (size_t)s->satellite.n_components;
+    for (int k = 0; k < w->tile.n; k++) {
+        if (!w->tile.seen[k] || !(w->tile.sun_weight[k] > 0)) continue;
+        const glint_status status =
+            visibility_fill(w->plan, w->scratch, w->geometry.poses + (size_t)k * n_components,
+                            w->tile.sun[k], w->tile.observer[k], k, w->visible, error);
+        if (status) return status;
+    }
+    return GLINT_OK;
+}
+
+glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const photometry_rows *rows,
+                             glint_error *error)
+{
+    if (w->tile.any_bright && w->plan) {
+        const glint_status status = find_visible(s, w, error);
+        if (status) return status;
+    }
+    if (w->tile.any_bright) model_sum(&s->satellite.model, w->lights, w->visible, w->x);
+    photometry_fill(s, &w->tile, w->tile.any_bright ? w->x : NULL, rows);
+    return GLINT_OK;
+}

@@ -1,0 +1,33 @@
+/* tile.h: one tile of rows from geometry to magnitudes, and what a thread needs for it. */
+#ifndef GLINT_LIGHTCURVE_TILE_H
+#define GLINT_LIGHTCURVE_TILE_H
+
+#include "lightcurve/photometry.h"
+
+/* What one thread needs for a tile. */
+typedef struct tile_worker {
+    geometry_worker geometry;
+    tile_geometry tile;
+    brdf_light *lights;          /* owned; n_components */
+    double *x;                   /* owned; n_bands x n_spans x TILE */
+    const visibility *plan;      /* borrowed; NULL without shadows */
+    visibility_scratch *scratch; /* owned; NULL without shadows */
+    double *visible;             /* owned; n_facets x TILE; NULL without shadows */
+} tile_worker;
+
+/* Plans the shadows that parts cast on each other; *out is NULL where none are wanted or none can
+ * be. Errors: GLINT_INTERNAL (memory). */
+glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_error *error);
+
+/* plan: of tile_plan_shadows, must outlive the worker. Errors: GLINT_INTERNAL (memory);
+ * tile_worker_free ends *out in every case. */
+glint_status tile_worker_make(const glint_scenario *s, const visibility *plan, tile_worker *out,
+                              glint_error *error);
+void tile_worker_free(tile_worker *w);
+
+/* From the worker's tile and lights, which geometry_fill has filled, to rows: visibility, sum,
+ * photometry. Errors: those of visibility_fill. */
+glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const photometry_rows *rows,
+                             glint_error *error);
+
+#endif

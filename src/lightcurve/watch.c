@@ -1,0 +1,34 @@
+#include "lightcurve/watch.h"
+
+#include "base/constants.h"
+
+void watch_free(watch *w)
+{
+    frame_grid_free(w->grid);
+    *w = (watch){0};
+}
+
+glint_status watch_cover(watch *w, double t_s, glint_error *error)
+{
+    /* The nodes of the grid are dear, so that it reaches ahead; searches look back a little, too.
+     */
+    static const double AHEAD_S = 2 * DAY_S, BEHIND_S = 600;
+    static const double GRID_STEP_S = 1; /* any below the grid's own: it is never passed by */
+    if (w->grid && t_s >= w->from_s && t_s <= w->to_s) return GLINT_OK;
+    const earth_orientation still = {0, 0};
+    const double from_s = t_s - BEHIND_S, to_s = t_s + AHEAD_S;
+    const glint_status status =
+        frame_grid_prepare(&w->s->clock, &still, from_s, to_s, GRID_STEP_S, &w->grid, error);
+    if (status) return status;
+    w->from_s = from_s;
+    w->to_s = to_s;
+    return GLINT_OK;
+}
+
+glint_status watch_at(watch *w, double t_s, sighting *out, glint_error *error)
+{
+    glint_status status = watch_cover(w, t_s, error);
+    if (!status) status = sighting_at(w->s, w->grid, t_s, w->light_time_s, &w->cursor, out, error);
+    if (!status) w->light_time_s = out->light_time_s;
+    return status;
+}

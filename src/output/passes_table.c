@@ -1,0 +1,325 @@
+/* passes_table.c: passes as a table for people, as CSV with an ECSV header, as JSON. */
+#include "output/ecsv.h"
+#include "output/file.h"
+#include "output/json.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double DEGREES = 57.295779513082320877; /* per rad */
+
+/* A pass with where it comes from. */
+typedef struct listed_pass {
+    const glint_passes *of;
+    const glint_pass *pass;
+    size_t order; /* of the scenario on the command line */
+} listed_pass;
+
+static int64_t utc_key(const glint_utc *u)
+{
+    return ((((u->year * 12LL + u->month) * 31 + u->day) * 24 + u->hour) * 60 + u->minute) * 61 +
+           u->second;
+}
+
+/* By the first event, to the microsecond, then as the scenarios were given. */
+static int pass_order(const void *a, const void *b)
+{
+    const listed_pass *x = a, *y = b;
+    const glint_utc *p = &x->pass->events[0].utc, *q = &y->pass->events[0].utc;
+    const int64_t i = utc_key(p), k = utc_key(q);
+    if (i != k) return i < k ? -1 : 1;
+    if (p->microsecond != q->microsecond) return p->microsecond < q->microsecond ? -1 : 1;
+    return (x->order > y->order) - (x->order < y->order);
+}
+
+/* All passes in order of time; owned by the caller. NULL when memory is out. */
+static listed_pass *merge(const glint_passes *const *passes, size_t n, size_t *n_out)
+{
+    *n_out = 0;
+    for (size_t i = 0; i < n; i++)
+        *n_out += glint_passes_count(passes[i]);
+    listed_pass *list = calloc(*n_out + 1, sizeof *list);
+    if (!list) return NULL;
+    size_t at = 0;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < glint_passes_count(passes[i]); k++)
+            list[at++] = (listed_pass){passes[i], glint_passes_get(passes[i], k), i};
+    if (at > 1) qsort(list, at, sizeof *list, pass_order);
+    return list;
+}
+
+static const glint_pass_event *event_of(const glint_pass *pass, glint_event_kind kind)
+{
+    for (size_t k = 0; k < pass->n_events; k++)
+        if (pass->events[k].kind == kind) return &pass->events[k];
+    return NULL;
+}
+
+static void add_utc(text *t, const glint_utc *u)
+{
+    text_printf(t, "%04d-%02d-%02dT%02d:%02d:%02d.%06dZ", u->year, u->month, u->day, u->hour,
+                u->minute, u->second, u->microsecond);
+}
+
+/* "19:13:04.5" */
+static void add_clock(text *t, const glint_utc *u)
+{
+    text_printf(t, "%02d:%02d:%02d.%d", u->hour, u->minute, u->second, u->microsecond / 100000);
+}
+
+/* --------------------------------------------------------------- for people */
+
+static void add_end(text *t, const glint_pass_event *e, const char *otherwise)
+{
+    if (!e) {
+        text_printf(t, "  %-10s %3s", otherwise, "");
+        return;
+    }
+    text_add(t, "  ");
+    add_clock(t, &e->utc);
+    text_printf(t, " %3s", glint_compass_point(e->azimuth_rad));
+}
+
+static void add_line(text *t, const listed_pass *l)
+{
+    const glint_pass *p = l->pass;
+    const glint_pass_event *top = event_of(p, GLINT_CULMINATION);
+    const glint_pass_event *best = event_of(p, GLINT_BRIGHTEST);
+    const glint_utc *day = &p->events[0].utc;
+    text_printf(t, "%04d-%02d-%02d", day->year, day->month, day->day);
+    add_end(t, event_of(p, GLINT_RISE), "up already");
+    text_add(t, "  ");
+    add_clock(t, &top->utc);
+    text_printf(t, " %5.1f %3s", top->elevation_rad * DEGREES,
+                glint_compass_point(top->azimuth_rad));
+    add_end(t, event_of(p, GLINT_SET), "still up");
+    text_add(t, "  ");
+    if (best) {
+        add_clock(t, &best->utc);
+        text_printf(t, " %6.2f", best->magnitude);
+    } else {
+        text_printf(t, "%-10s %6s", "-", "-");
+    }
+    text_printf(t, "  %7.0f  %7.0f  %6.1f  %s%s%s\n", p->sunlit_s, p->dark_site_s,
+                top->sun_elevation_rad * DEGREES, glint_passes_satellite(l->of),
+                glint_passes_site(l->of)[0] ? ", " : "", glint_passes_site(l->of));
+}
+
+/* What happens besides: the Earth's shadow, darkness, flashes. */
+static void add_note(text *t, const glint_passes *of, const glint_pass_event *e)
+{
+    static const char *const WORDS[] = {
+        [GLINT_UMBRA_END] = "first sunlight",
+        [GLINT_PENUMBRA_END] = "in full sunlight",
+        [GLINT_PENUMBRA_BEGIN] = "sunlight fades",
+        [GLINT_UMBRA_BEGIN] = "in the Earth's shadow",
+        [GLINT_DARKNESS_BEGIN] = "the site is dark",
+        [GLINT_DARKNESS_END] = "the site is light",
+        [GLINT_FLASH] = "flash",
+    };
+    if ((size_t)e->kind >= sizeof WORDS / sizeof *WORDS || !WORDS[e->kind]) return;
+    text_printf(t, "%12s", "");
+    add_clock(t, &e->utc);
+    text_printf(t, " %3s %5.1f  %s", glint_compass_point(e->azimuth_rad),
+                e->elevation_rad * DEGREES, WORDS[e->kind]);
+    if (e->kind == GLINT_FLASH) {
+        text_printf(t, " of %s (%.3g, %.3g, %.3g) for %.3g s, %.2f deg off", e->component,
+                    e->normal[0], e->normal[1], e->normal[2], e->to_s - e->from_s,
+                    e->mirror_angle_rad * DEGREES);
+        if (e->has_magnitude)
+            text_printf(t, ", %s %.2f", glint_passes_band(of), e->magnitude);
+        else
+            text_add(t, ", hidden");
+    }
+    text_char(t, '\n');
+}
+
+static void write_people(const listed_pass *list, size_t n, text *t)
+{
+    if (n == 0) {
+        text_add(t, "no pass in this time\n");
+        return;
+    }
+    text_add(t,
+             "UTC         rise           culmination  deg       set             brightest     mag"
+             "   sunlit  in dark     Sun\n"
+             "                                                                               "
+             "        s        s     deg\n");
+    for (size_t k = 0; k < n; k++) {
+        const glint_pass *p = list[k].pass;
+        add_line(t, &list[k]);
+        for (size_t i = 0; i < p->n_events; i++)
+            add_note(t, list[k].of, &p->events[i]);
+        if (p->more_flashes) text_printf(t, "%12smore flashes are left out\n", "");
+    }
+}
+
+/* ---------------------------------------------------------------------- CSV */
+
+static const glint_column COLUMNS[] = {
+    {"satellite", "", "name of the element set, or title of the scenario", true},
+    {"site", "", "name of the observer", true},
+    {"pass", "", "number of the pass, from 1, in order of time", false},
+    {"event", "", "what happens", true},
+    {"utc", "", "UTC of reception at the observer", true},
+    {"azimuth_deg", "deg", "from north through east", false},
+    {"azimuth_name", "", "point of the compass", true},
+    {"elevation_deg", "deg", "geometric", false},
+    {"range_km", "km", "observer to satellite", false},
+    {"sun_elevation_deg", "deg", "of the Sun at the site, geometric", false},
+    {"phase_angle_deg", "deg", "at the satellite, between Sun and observer; 0 is full", false},
+    {"sunlit_fraction", "", "visible part of the solar disc, seen from the satellite", false},
+    {"site_dark", "", "yes: the Sun is below sun_elevation_max_deg", true},
+    {"band", "", "of the magnitude", true},
+    {"magnitude", "mag", "empty when dark, or without a satellite", false},
+    {"duration_s", "s", "of a flash: while the mirror angle is within the limit", false},
+    {"mirror_angle_deg", "deg", "of a flash: from the observer to the mirrored Sun", false},
+    {"component", "", "of a flash: what the surface belongs to", true},
+    {"normal_x", "", "of the surface, in the component's axes", false},
+    {"normal_y", "", "of the surface, in the component's axes", false},
+    {"normal_z", "", "of the surface, in the component's axes", false},
+};
+
+enum { N_COLUMNS = sizeof COLUMNS / sizeof *COLUMNS };
+
+static void add_cell(text *t, double value)
+{
+    text_char(t, ',');
+    text_double(t, value);
+}
+
+static void add_event_row(text *t, const glint_passes *of, size_t number, const glint_pass_event *e)
+{
+    ecsv_cell(t, glint_passes_satellite(of));
+    text_char(t, ',');
+    ecsv_cell(t, glint_passes_site(of));
+    text_printf(t, ",%zu,%s,", number, glint_event_name(e->kind));
+    add_utc(t, &e->utc);
+    add_cell(t, e->azimuth_rad * DEGREES);
+    text_printf(t, ",%s", glint_compass_point(e->azimuth_rad));
+    add_cell(t, e->elevation_rad * DEGREES);
+    add_cell(t, e->range_m * 1e-3);
+    add_cell(t, e->sun_elevation_rad * DEGREES);
+    add_cell(t, e->phase_angle_rad * DEGREES);
+    add_cell(t, e->sunlit_fraction);
+    text_printf(t, ",%s,", e->site_dark ? "yes" : "no");
+    if (e->has_magnitude) text_add(t, glint_passes_band(of));
+    text_char(t, ',');
+    if (e->has_magnitude) text_double(t, e->magnitude);
+    if (e->kind == GLINT_FLASH) {
+        add_cell(t, e->to_s - e->from_s);
+        add_cell(t, e->mirror_angle_rad * DEGREES);
+        text_char(t, ',');
+        ecsv_cell(t, e->component);
+        for (int i = 0; i < 3; i++)
+            add_cell(t, e->normal[i]);
+    } else {
+        text_add(t, ",,,,,,");
+    }
+    text_char(t, '\n');
+}
+
+static void write_csv(const listed_pass *list, size_t n, text *t)
+{
+    ecsv_begin(t, COLUMNS, N_COLUMNS);
+    ecsv_fact(t, "glint_version", glint_version());
+    ecsv_fact(t, "time_scale", "utc is the reception at the observer");
+    ecsv_end(t, COLUMNS, N_COLUMNS);
+    for (size_t k = 0; k < n; k++)
+        for (size_t i = 0; i < list[k].pass->n_events; i++)
+            add_event_row(t, list[k].of, k + 1, &list[k].pass->events[i]);
+}
+
+/* --------------------------------------------------------------------- JSON */
+
+static void add_json_utc(json *j, const char *key, const glint_utc *utc)
+{
+    text t = {0};
+    add_utc(&t, utc);
+    if (t.failed)
+        j->out->failed = true;
+    else
+        json_string(j, key, t.data);
+    text_free(&t);
+}
+
+static void add_json_event(json *j, const glint_passes *of, const glint_pass_event *e)
+{
+    json_object(j, NULL);
+    json_string(j, "event", glint_event_name(e->kind));
+    add_json_utc(j, "utc", &e->utc);
+    json_number(j, "azimuth_deg", e->azimuth_rad * DEGREES);
+    json_string(j, "azimuth_name", glint_compass_point(e->azimuth_rad));
+    json_number(j, "elevation_deg", e->elevation_rad * DEGREES);
+    json_number(j, "range_km", e->range_m * 1e-3);
+    json_number(j, "sun_elevation_deg", e->sun_elevation_rad * DEGREES);
+    json_number(j, "phase_angle_deg", e->phase_angle_rad * DEGREES);
+    json_number(j, "sunlit_fraction", e->sunlit_fraction);
+    json_bool(j, "site_dark", e->site_dark);
+    if (e->has_magnitude) {
+        json_string(j, "band", glint_passes_band(of));
+        json_number(j, "magnitude", e->magnitude);
+    }
+    if (e->kind == GLINT_FLASH) {
+        json_number(j, "duration_s", e->to_s - e->from_s);
+        json_number(j, "mirror_angle_deg", e->mirror_angle_rad * DEGREES);
+        json_string(j, "component", e->component);
+        json_list(j, "normal");
+        for (int i = 0; i < 3; i++)
+            json_number(j, NULL, e->normal[i]);
+        json_end(j, ']');
+    }
+    json_end(j, '}');
+}
+
+static void write_json(const listed_pass *list, size_t n, text *t)
+{
+    json j = {.out = t};
+    json_object(&j, NULL);
+    json_string(&j, "glint_version", glint_version());
+    json_list(&j, "passes");
+    for (size_t k = 0; k < n; k++) {
+        const glint_pass *p = list[k].pass;
+        json_object(&j, NULL);
+        json_string(&j, "satellite", glint_passes_satellite(list[k].of));
+        json_string(&j, "site", glint_passes_site(list[k].of));
+        json_bool(&j, "up_at_start", p->up_at_start);
+        json_bool(&j, "up_at_end", p->up_at_end);
+        json_number(&j, "sunlit_s", p->sunlit_s);
+        json_number(&j, "dark_site_s", p->dark_site_s);
+        json_bool(&j, "more_flashes", p->more_flashes);
+        json_list(&j, "events");
+        for (size_t i = 0; i < p->n_events; i++)
+            add_json_event(&j, list[k].of, &p->events[i]);
+        json_end(&j, ']');
+        json_end(&j, '}');
+    }
+    json_end(&j, ']');
+    json_end(&j, '}');
+}
+
+glint_status glint_passes_write(const glint_passes *const *passes, size_t n, glint_format format,
+                                const char *path, glint_error *error)
+{
+    size_t n_list;
+    listed_pass *list = merge(passes, n, &n_list);
+    if (!list) return error_no_memory(error);
+    text t = {0};
+    switch (format) {
+    case GLINT_FORMAT_TABLE:
+        write_people(list, n_list, &t);
+        break;
+    case GLINT_FORMAT_CSV:
+        write_csv(list, n_list, &t);
+        break;
+    case GLINT_FORMAT_JSON:
+        write_json(list, n_list, &t);
+        break;
+    }
+    free(list);
+    const glint_status status =
+        t.failed ? error_no_memory(error) : glint_text_write(path, t.data, t.length, error);
+    text_free(&t);
+    return status;
+}

@@ -1,0 +1,503 @@
+/* Pictures: how gnuplot is found, told and listened to (with programs of that name that the tests
+ * write), and what of a long light curve comes into its picture. */
+#include "scenario_text.h"
+
+#include "output/curve_plot.h"
+#include "output/plot.h"
+
+#include <sys/stat.h>
+
+/* ------------------------------------------------------------------ helpers */
+
+static char old_path[4096];
+
+static void keep_path(void)
+{
+    const char *path = getenv("PATH");
+    snprintf(old_path, sizeof old_path, "%s", path ? path : "");
+    folder_make();
+}
+
+static void restore_path(void)
+{
+    setenv("PATH", old_path, 1);
+    folder_remove();
+}
+
+/* Puts a program `gnuplot` with this text into the folder, which becomes the whole of PATH but for
+ * where the tools lie that it needs. */
+static void fake_gnuplot(const char *commands)
+{
+    char program[1024], path[512];
+    snprintf(program, sizeof program, "#!/bin/sh\n%s\n", commands);
+    ck_assert_int_eq(chmod(write_file("gnuplot", program), 0755), 0);
+    snprintf(path, sizeof path, "%s:/usr/bin:/bin", folder);
+    ck_assert_int_eq(setenv("PATH", path, 1), 0);
+}
+
+/* Draws a script into a file of the folder. */
+static glint_status draw(const char *name, const char *script, size_t n, glint_error *error)
+{
+    plot *p;
+    *error = (glint_error){0};
+    const glint_status status = plot_open(in_folder(name), &p, error);
+    return status ? status : plot_finish(p, script, n, error);
+}
+
+static void assert_message(const glint_error *error, const char *wanted)
+{
+    ck_assert_msg(strstr(error->message, wanted) != NULL, "wanted '%s'; got '%s'", wanted,
+                  error->message);
+}
+
+/* True where the real gnuplot is there. */
+static bool has_gnuplot(const char *what)
+{
+    glint_error error;
+    if (glint_plot_check(in_folder("try.png"), &error) == GLINT_OK) return true;
+    printf("SKIPPED: %s: no gnuplot\n", what);
+    return false;
+}
+
+/* ------------------------------------------------------------ the conversation */
+
+START_TEST(test_plot_is_what_gnuplot_writes_to_its_output)
+{
+    static const char *const cases[][2] = {
+        {"a.png", "set terminal pngcairo size 1200,800 "},
+        {"a.svg", "set terminal svg size 1200,800 "},
+        {"a.pdf", "set terminal pdfcairo "},
+        {"A.PNG", "set terminal pngcairo "},
+    };
+    fake_gnuplot("echo \"$*\"; exec cat");
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        glint_error error;
+        const glint_status status = draw(cases[k][0], "plot x\n", 7, &error);
+        ck_assert_msg(status == GLINT_OK, "%s", error.message);
+        char *got = read_bytes(in_folder(cases[k][0]), NULL);
+        /* no user's start-up files, and the script from standard input */
+        ck_assert_msg(strncmp(got, "--default-settings -\nset encoding utf8\n", 39) == 0, "%s",
+                      got);
+        ck_assert_msg(strstr(got, cases[k][1]) != NULL, "%s", got);
+        ck_assert_msg(strstr(got, "\nplot x\n") != NULL, "%s", got);
+        ck_assert_msg(strstr(got, folder) == NULL, "gnuplot was told the file's name: %s", got);
+        free(got);
+    }
+    ck_assert_int_eq(folder_count(), 1 + (int)COUNT_OF(cases));
+}
+END_TEST
+
+/* Both ways more than any buffer of the system holds: neither side may wait for the other. */
+START_TEST(test_plot_of_megabytes_goes_through_both_ways)
+{
+    enum { SIZE = 8 << 20 };
+    char *script = malloc(SIZE);
+    ck_assert_ptr_nonnull(script);
+    for (int k = 0; k < SIZE; k++)
+        script[k] = (char)('a' + k % 25);
+    fake_gnuplot("exec cat");
+    glint_error error;
+    ck_assert_int_eq(draw("big.png", script, SIZE, &error), GLINT_OK);
+    size_t n;
+    char *got = read_bytes(in_folder("big.png"), &n);
+    const char *start = strstr(got, "abcdefg");
+    ck_assert_ptr_nonnull(start);
+    ck_assert(memcmp(start, script, SIZE) == 0);
+    free(got);
+    free(script);
+}
+END_TEST
+
+/* The signal of a broken pipe would end the program that draws; here it would end the test. */
+START_TEST(test_plot_survives_a_gnuplot_that_does_not_listen)
+{
+    enum { SIZE = 8 << 20 };
+    char *script = calloc(1, SIZE);
+    ck_assert_ptr_nonnull(script);
+    static const char *const cases[] = {"exit 1", "exec <&-; sleep 0.2; exit 3",
+                                        "head -c 1000 >&2"};
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        glint_error error;
+        fake_gnuplot(cases[k]);
+        ck_assert_int_eq(draw("a.png", script, SIZE, &error), GLINT_OUTPUT);
+        assert_message(&error, "gnuplot drew no picture");
+    }
+    ck_assert_int_eq(folder_count(), 1); /* gnuplot */
+    free(script);
+}
+END_TEST
+
+START_TEST(test_plot_that_fails_says_what_gnuplot_said_and_keeps_the_old_file)
+{
+    write_file("a.svg", "precious");
+    fake_gnuplot("cat >/dev/null; echo half a picture; printf 'gnuplot> plt x\\n         ^\\n"
+                 "         line 3: invalid command\\n\\n' >&2; exit 1");
+    glint_error error;
+    ck_assert_int_eq(draw("a.svg", "plt x\n", 6, &error), GLINT_OUTPUT);
+    assert_message(&error, "it said: gnuplot> plt x ^ line 3: invalid command");
+    ck_assert_ptr_null(strchr(error.message, '\n'));
+    char *kept = read_bytes(in_folder("a.svg"), NULL);
+    ck_assert_str_eq(kept, "precious");
+    free(kept);
+    fake_gnuplot("cat >/dev/null; echo fine >&2"); /* and no picture */
+    ck_assert_int_eq(draw("a.svg", "\n", 1, &error), GLINT_OUTPUT);
+    assert_message(&error, "drew no picture; it said: fine");
+    fake_gnuplot("kill -9 $$");
+    ck_assert_int_eq(draw("a.svg", "\n", 1, &error), GLINT_OUTPUT);
+    assert_message(&error, "ended by signal 9; it said: nothing");
+    ck_assert_int_eq(folder_count(), 2);
+}
+END_TEST
+
+START_TEST(test_plot_warnings_of_gnuplot_do_no_harm)
+{
+    fake_gnuplot("echo warning >&2; exec cat");
+    glint_error error;
+    ck_assert_int_eq(draw("a.pdf", "\n", 1, &error), GLINT_OK);
+}
+END_TEST
+
+START_TEST(test_plot_without_gnuplot_says_what_to_install)
+{
+    fake_gnuplot("exec cat");
+    char relative[512];
+    snprintf(relative, sizeof relative, "%s/nothing::relative:.", folder);
+    const char *const paths[] = {"", "/no/such/folder", relative};
+    ck_assert_int_eq(chdir(folder), 0); /* what lies here is no installed program */
+    for (size_t k = 0; k < COUNT_OF(paths); k++) {
+        glint_error error = {0};
+        ck_assert_int_eq(setenv("PATH", paths[k], 1), 0);
+        ck_assert_int_eq(glint_plot_check(in_folder("a.png"), &error), GLINT_OUTPUT);
+        assert_message(&error, "gnuplot-nox");
+        ck_assert_str_eq(error.file, in_folder("a.png"));
+    }
+    ck_assert_int_eq(unsetenv("PATH"), 0);
+    ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL), GLINT_OUTPUT);
+    ck_assert_int_eq(chdir("/"), 0);
+    ck_assert_int_eq(folder_count(), 1);
+}
+END_TEST
+
+START_TEST(test_plot_passes_over_what_is_no_program)
+{
+    char path[1024];
+    fake_gnuplot("exec cat");
+    ck_assert_int_eq(mkdir(in_folder("first"), 0755), 0);
+    ck_assert_int_eq(mkdir(in_folder("first/gnuplot"), 0755), 0); /* a folder of that name */
+    snprintf(path, sizeof path, "%s/first:%s", folder, folder);
+    ck_assert_int_eq(setenv("PATH", path, 1), 0);
+    ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL), GLINT_OK);
+    ck_assert_int_eq(chmod(in_folder("gnuplot"), 0644), 0);
+    ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL), GLINT_OUTPUT);
+    ck_assert_int_eq(rmdir(in_folder("first/gnuplot")), 0);
+}
+END_TEST
+
+START_TEST(test_plot_of_another_kind_is_refused)
+{
+    static const char *const names[] = {"a.jpg", "a", ".png", "png", "a.png.txt", "a.svgz", ""};
+    fake_gnuplot("exec cat");
+    for (size_t k = 0; k < COUNT_OF(names); k++) {
+        glint_error error = {0};
+        ck_assert_msg(glint_plot_check(names[k], &error) == GLINT_ARGUMENT, "%s", names[k]);
+        assert_message(&error, ".svg, .png or .pdf");
+    }
+}
+END_TEST
+
+START_TEST(test_plot_where_nothing_can_be_written_is_refused)
+{
+    fake_gnuplot("exec cat");
+    glint_error error = {0};
+    ck_assert_int_eq(glint_plot_check(in_folder("no/such/a.png"), &error), GLINT_OUTPUT);
+    ck_assert_int_eq(mkdir(in_folder("folder.png"), 0755), 0);
+    ck_assert_int_eq(glint_plot_check(in_folder("folder.png"), &error), GLINT_OUTPUT);
+    assert_message(&error, "directory");
+}
+END_TEST
+
+/* ---------------------------------------------------------------------- quotes */
+
+START_TEST(test_plot_quote_keeps_a_text_in_its_quotes)
+{
+    static const char *const cases[][2] = {
+        {"", "''"},
+        {"plain", "'plain'"},
+        {"it's", "'it' . \"'\" . 's'"},
+        {"'", "'' . \"'\" . ''"},
+        {"a\nb\tc\001d\177", "'a b c d '"},
+        {"`ls` $x @y %z \\n \"q\"", "'`ls` $x @y %z \\n \"q\"'"},
+        {"30\xc2\xb0", "'30\xc2\xb0'"},
+        {"\xb0 \xc2", "'? ?'"},
+    };
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        text t = {0};
+        plot_quote(&t, cases[k][0]);
+        ck_assert_str_eq(t.data, cases[k][1]);
+        text_free(&t);
+    }
+}
+END_TEST
+
+/* Names of files and titles of scenarios come from anywhere. */
+START_TEST(test_plot_quote_lets_gnuplot_run_nothing)
+{
+    if (!has_gnuplot("hostile titles")) return;
+    char hostile[1024], mark[512];
+    snprintf(mark, sizeof mark, "%s/mark", folder);
+    static const char *const forms[] = {"`touch %s`", "'; system 'touch %s'; x = '",
+                                        "\n!touch %s\n", "' . system('touch %s') . '",
+                                        "\"`touch %s`\" @x \\"};
+    for (size_t k = 0; k < COUNT_OF(forms); k++) {
+        const char *at = strstr(forms[k], "%s");
+        snprintf(hostile, sizeof hostile, "%.*s%s%s", (int)(at - forms[k]), forms[k], mark, at + 2);
+        text script = {0};
+        text_add(&script, "set title ");
+        plot_quote(&script, hostile);
+        text_add(&script, " noenhanced\nplot x title ");
+        plot_quote(&script, hostile);
+        text_char(&script, '\n');
+        glint_error error;
+        const glint_status status = draw("a.svg", script.data, script.length, &error);
+        ck_assert_msg(status == GLINT_OK, "%s: %s", hostile, error.message);
+        ck_assert_msg(access(mark, F_OK) != 0, "gnuplot obeyed %s", hostile);
+        text_free(&script);
+    }
+}
+END_TEST
+
+/* ---------------------------------------------------------------- light curves */
+
+/* A plate that turns under the Sun in very small steps, lit and seen half of the time. Its lobe is
+ * narrower than a pixel of any picture. */
+static const char *const TURNING[N_PARTS] = {
+    [PART_TOP] = "title = \"it's a `turning` plate\"\n",
+    [PART_TIME] = "[geometry]\nrotate = { axis = [0, 0, 1], step_deg = 0.002, sun = [1, 0, 0], "
+                  "observer = [1, 0, 0] }\nrange_km = 1000\n",
+    [PART_SETTINGS] = "[photometry]\nbands = [\"V\", \"B\"]\n",
+    [PART_MATERIAL] = "[materials.foil]\nbrdf = \"ward-gmd\"\nrho_d = 0.1\nrho_s = 0.3\n"
+                      "alpha_x = 0.0002\nalpha_y = 0.0002\n",
+    [PART_COMPONENT] = "[[component]]\nname = \"wing\"\n",
+    [PART_PRIMITIVE] = "[[component.plate]]\nsize_m = [1, 1]\nnormal = [0, 1, 0]\n"
+                       "tangent = [0, 0, 1]\nmaterial = \"foil\"\n",
+};
+
+/* The numbers of a data block: x and y of each line, a blank line as NaN. Returns their number. */
+static size_t block_points(const char *script, const char *name, double (*points)[2], size_t most)
+{
+    char head[64];
+    snprintf(head, sizeof head, "$%s << end\n", name);
+    const char *at = strstr(script, head);
+    ck_assert_msg(at != NULL, "there is no %s in %.500s", head, script);
+    at += strlen(head);
+    size_t n = 0;
+    for (; strncmp(at, "end\n", 4) != 0; at = strchr(at, '\n') + 1) {
+        ck_assert_uint_lt(n, most);
+        if (sscanf(at, "%lf %lf", &points[n][0], &points[n][1]) != 2 || *at == '\n')
+            points[n][0] = points[n][1] = (double)NAN;
+        n++;
+    }
+    return n;
+}
+
+/* The script of a scenario's picture, and the brightest and the faintest magnitude in V of its
+ * rows. */
+static text script_of(const char *path, double *brightest, double *faintest, int64_t *n_rows)
+{
+    glint_scenario *s = read_sound(path);
+    glint_curve *curve;
+    ck_assert_int_eq(glint_curve_open(s, 1, &curve, NULL), GLINT_OK);
+    curve_plot *p = curve_plot_start(curve);
+    ck_assert_ptr_nonnull(p);
+    *brightest = (double)INFINITY;
+    *faintest = -(double)INFINITY;
+    *n_rows = 0;
+    for (;;) {
+        const glint_row *rows;
+        size_t n;
+        ck_assert_int_eq(glint_curve_next(curve, &rows, &n, NULL), GLINT_OK);
+        if (n == 0) break;
+        curve_plot_add(p, rows, n);
+        *n_rows += (int64_t)n;
+        for (size_t k = 0; k < n; k++) {
+            if (!(rows[k].flux_ratio[0] > 0)) continue;
+            *brightest = fmin(*brightest, rows[k].magnitude[0]);
+            *faintest = fmax(*faintest, rows[k].magnitude[0]);
+        }
+    }
+    text script = {0};
+    curve_plot_write(p, &script);
+    ck_assert(!script.failed);
+    curve_plot_free(p);
+    glint_curve_close(curve);
+    glint_scenario_free(s);
+    return script;
+}
+
+START_TEST(test_curve_plot_of_a_long_run_keeps_what_is_brightest_and_faintest)
+{
+    enum { MOST = 10000 };
+    static double points[MOST][2];
+    double brightest, faintest, least = (double)INFINITY, most = -(double)INFINITY;
+    int64_t n_rows;
+    int gaps = 0;
+    const marked_text whole = with_part(TURNING, PART_TOP, TURNING[PART_TOP]);
+    text script =
+        script_of(write_file("scenario.toml", whole.text), &brightest, &faintest, &n_rows);
+    ck_assert_int_eq(n_rows, 180000);
+    const size_t n = block_points(script.data, "band0", points, MOST);
+    for (size_t k = 0; k < n; k++) {
+        if (isnan(points[k][0])) {
+            gaps++;
+            continue;
+        }
+        least = fmin(least, points[k][1]);
+        most = fmax(most, points[k][1]);
+    }
+    /* to the digits that are written; the lobe lasts a few hundredths of a degree */
+    assert_near(least, brightest, 1e-5);
+    assert_near(most, faintest, 1e-5);
+    ck_assert_uint_ge(n, 1000); /* half of 2000 stretches are lit */
+    ck_assert_uint_le(n, 4010);
+    ck_assert_int_eq(gaps, 0); /* lit in one go: the normal is on y, the Sun moves from x to y */
+    ck_assert_uint_eq(block_points(script.data, "band1", points, MOST), n);
+    ck_assert_ptr_nonnull(strstr(script.data, "'it' . \"'\" . 's a `turning` plate' noenhanced"));
+    ck_assert_ptr_nonnull(strstr(script.data, "title 'foil'"));
+    ck_assert_ptr_nonnull(strstr(script.data, "$shares0"));
+    text_free(&script);
+}
+END_TEST
+
+/* With a step of 30 deg every row is its own stretch. */
+START_TEST(test_curve_plot_of_a_short_run_holds_every_row)
+{
+    enum { MOST = 100 };
+    double points[MOST][2], brightest, faintest;
+    int64_t n_rows;
+    const marked_text whole = with_part(TURNING, PART_TIME,
+                                        "[geometry]\nrotate = { axis = [0, 0, 1], step_deg = 30, "
+                                        "sun = [1, 1, 0], observer = [1, 1, 0] }\n"
+                                        "range_km = 1000\n");
+    text script =
+        script_of(write_file("scenario.toml", whole.text), &brightest, &faintest, &n_rows);
+    ck_assert_int_eq(n_rows, 12);
+    ck_assert_uint_eq(block_points(script.data, "band0", points, MOST), 6 + 1); /* and one gap */
+    ck_assert_uint_eq(block_points(script.data, "dots0", points, MOST), 1);     /* NaN: none */
+    ck_assert(isnan(points[0][0]));
+    text_free(&script);
+}
+END_TEST
+
+START_TEST(test_curve_plot_marks_rows_that_stand_alone)
+{
+    double points[10][2], brightest, faintest;
+    int64_t n_rows;
+    const marked_text whole = with_part(TURNING, PART_TIME,
+                                        "[geometry]\nrotate = { axis = [0, 0, 1], step_deg = 120, "
+                                        "sun = [0, 1, 0], observer = [0, 1, 0] }\n"
+                                        "range_km = 1000\n");
+    text script =
+        script_of(write_file("scenario.toml", whole.text), &brightest, &faintest, &n_rows);
+    ck_assert_uint_eq(block_points(script.data, "dots0", points, 10), 1);
+    assert_near(points[0][0], 0, 0);
+    assert_near(points[0][1], brightest, 1e-5);
+    text_free(&script);
+}
+END_TEST
+
+/* What is drawn must be a script that gnuplot takes: lit, dark, one row, over time and over phase.
+ */
+START_TEST(test_curve_plot_is_drawn_whatever_the_rows_are)
+{
+    if (!has_gnuplot("pictures of light curves")) return;
+    static const struct {
+        const char *const *parts;
+        enum part part;
+        const char *text, *shown;
+    } cases[] = {
+        {SOUND, PART_TOP, "title = \"over time\"\n", "25 Jul 2025"},
+        {SOUND, PART_TIME, "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 0\nstep_s = 1\n",
+         "25 Jul 2025"},
+        {SOUND, PART_TIME,
+         "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 432000\nstep_s = 100\n",
+         "25 Jul 2025 to 30 Jul 2025"},
+        {SOUND, PART_SETTINGS, "[output]\nshares = \"none\"\n", "magnitude V"},
+        {SOUND, PART_SETTINGS, "[output]\nshares = \"both\"\n", "component share"},
+        {SOUND, PART_SETTINGS, "[photometry]\nbands = [\"sdss_g\", \"V\"]\n",
+         "material share in sdss_g"},
+        {GIVEN, PART_TOP, "", "phase angle (deg)"},
+        {TURNING, PART_TIME,
+         "[geometry]\nrotate = { axis = [0, 0, 1], step_deg = 30, sun = [0, 0, -1], "
+         "observer = [1, 0, 0] }\n",
+         "no row has a magnitude"},
+    };
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        const marked_text whole = with_part(cases[k].parts, cases[k].part, cases[k].text);
+        glint_scenario *s = read_sound(write_file("scenario.toml", whole.text));
+        glint_curve *curve;
+        glint_error error = {0};
+        ck_assert_int_eq(glint_curve_open(s, 1, &curve, NULL), GLINT_OK);
+        const glint_status status = glint_table_write(curve, in_folder("a.csv"), in_folder("a.svg"),
+                                                      NULL, NULL, NULL, &error);
+        ck_assert_msg(status == GLINT_OK, "case %zu: %s", k, error.message);
+        char *svg = read_bytes(in_folder("a.svg"), NULL);
+        ck_assert_msg(strstr(svg, "<svg") && strstr(svg, "</svg>"), "case %zu is no SVG", k);
+        ck_assert_msg(strstr(svg, cases[k].shown) != NULL, "case %zu has no '%s'", k,
+                      cases[k].shown);
+        free(svg);
+        glint_curve_close(curve);
+        glint_scenario_free(s);
+    }
+}
+END_TEST
+
+/* A picture that cannot be drawn is said before anything is computed, and the table is not begun.
+ */
+START_TEST(test_curve_plot_that_cannot_be_drawn_stops_the_run_at_once)
+{
+    const marked_text whole = with_part(GIVEN, PART_TOP, "");
+    glint_scenario *s = read_sound(write_file("scenario.toml", whole.text));
+    glint_curve *curve;
+    ck_assert_int_eq(glint_curve_open(s, 1, &curve, NULL), GLINT_OK);
+    static const struct {
+        const char *picture;
+        glint_status status;
+    } cases[] = {{"a.jpg", GLINT_ARGUMENT}, {"no/such/a.png", GLINT_OUTPUT}};
+    fake_gnuplot("exec cat");
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        ck_assert_int_eq(glint_table_write(curve, in_folder("a.csv"), in_folder(cases[k].picture),
+                                           NULL, NULL, NULL, NULL),
+                         cases[k].status);
+        ck_assert_int_eq(glint_curve_done(curve), 0);
+        ck_assert_int_ne(access(in_folder("a.csv"), F_OK), 0);
+    }
+    glint_curve_close(curve);
+    glint_scenario_free(s);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("plot");
+    TCase *all = tcase_create("all");
+    tcase_add_checked_fixture(all, keep_path, restore_path);
+    tcase_set_timeout(all, 120);
+    tcase_add_test(all, test_plot_is_what_gnuplot_writes_to_its_output);
+    tcase_add_test(all, test_plot_of_megabytes_goes_through_both_ways);
+    tcase_add_test(all, test_plot_survives_a_gnuplot_that_does_not_listen);
+    tcase_add_test(all, test_plot_that_fails_says_what_gnuplot_said_and_keeps_the_old_file);
+    tcase_add_test(all, test_plot_warnings_of_gnuplot_do_no_harm);
+    tcase_add_test(all, test_plot_without_gnuplot_says_what_to_install);
+    tcase_add_test(all, test_plot_passes_over_what_is_no_program);
+    tcase_add_test(all, test_plot_of_another_kind_is_refused);
+    tcase_add_test(all, test_plot_where_nothing_can_be_written_is_refused);
+    tcase_add_test(all, test_plot_quote_keeps_a_text_in_its_quotes);
+    tcase_add_test(all, test_plot_quote_lets_gnuplot_run_nothing);
+    tcase_add_test(all, test_curve_plot_of_a_long_run_keeps_what_is_brightest_and_faintest);
+    tcase_add_test(all, test_curve_plot_of_a_short_run_holds_every_row);
+    tcase_add_test(all, test_curve_plot_marks_rows_that_stand_alone);
+    tcase_add_test(all, test_curve_plot_is_drawn_whatever_the_rows_are);
+    tcase_add_test(all, test_curve_plot_that_cannot_be_drawn_stops_the_run_at_once);
+    suite_add_tcase(suite, all);
+    return run_suite(suite);
+}
