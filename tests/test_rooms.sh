@@ -14,9 +14,9 @@ declare -A rooms=(
     [output]='base output'
     [cli]='cli'
 )
-# Which folder's C++ files face which library; ERFA and cminpack are C.
+# Which folder's C++ files face which library; those of the pattern below are C.
 declare -A libraries=([erfa]='orbit' [GeographicLib]='orbit' [toml++]='scenario'
-    [cminpack]='brdf')
+    [cminpack]='brdf' [expat]='orbit' [jansson]='orbit' [cairo]='output' [embree3]='facets')
 
 wrong() {
     printf '%s: %s\n' "$1" "$2"
@@ -38,7 +38,7 @@ check_include() {
             "$library"/* | "$library".h | "$library"m.h)
                 [ "${libraries[$library]}" = "$room" ] ||
                     wrong "$file" "$name belongs to ${libraries[$library]}, not to $room"
-                [[ $library =~ ^(erfa|cminpack)$ ]] || [ "${file##*.}" = cpp ] ||
+                [[ $library =~ ^(erfa|cminpack|expat|jansson|cairo|embree3)$ ]] || [ "${file##*.}" = cpp ] ||
                     wrong "$file" "only a .cpp file may include $name"
                 return
                 ;;
