@@ -300,6 +300,13 @@ glint_status glint_material_brdf(const glint_material *material, double theta_i,
     return GLINT_OK;
 }
 
+double glint_material_mirrored(const glint_material *material, double theta_i)
+{
+    const double ci = cos(theta_i);
+    if (!(theta_i >= 0.0 && ci > BRDF_EDGE)) return 0.0;
+    return brdf_material_specular(&inside(material)->bands[0], ci);
+}
+
 glint_status glint_material_dhr(const glint_material *material, double theta_i, double phi_i,
                                 double *dhr, double *error_bound, glint_error *error)
 {

@@ -29,12 +29,6 @@ static int param_index(const brdf_model *brdf, const char *name)
     return -1;
 }
 
-/* BRDFs that are planned: their names are known, and refused by name. */
-static bool is_planned(const char *brdf)
-{
-    return string_equal(brdf, "mirror");
-}
-
 static const brdf_model *read_brdf_name(reader *r, bool in_sum)
 {
     const char *name, *names[64];
@@ -49,15 +43,9 @@ static const brdf_model *read_brdf_name(reader *r, bool in_sum)
     for (size_t k = 0; k < n; k++)
         text_printf(&list, "%s%s", k ? ", " : "", names[k]);
     const char *near = nearest_name(name, names, n);
-    if (is_planned(name))
-        reader_fail(r, reader_place(r, "brdf"),
-                    "the BRDF '%s' is not built yet; expected one of: %s", name,
-                    list.data ? list.data : "");
-    else
-        reader_fail(r, reader_place(r, "brdf"),
-                    "there is no BRDF '%.40s'%s%s%s; expected one of: %s", name,
-                    near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "",
-                    list.data ? list.data : "");
+    reader_fail(r, reader_place(r, "brdf"), "there is no BRDF '%.40s'%s%s%s; expected one of: %s",
+                name, near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "",
+                list.data ? list.data : "");
     text_free(&list);
     return NULL;
 }
@@ -469,6 +457,25 @@ static void warn_of_spectra(reading *rd, const scenario_material *material, cons
     if (!parts) parts = toml_child(material->table, "parts");
     for (int k = 0; parts && k < parts->n_children; k++)
         warn_of_spectrum(rd, material, &parts->children[k], NULL, band);
+}
+
+void refuse_mirrors(reading *rd)
+{
+    const glint_scenario *s = rd->s;
+    for (int m = 0; m < s->satellite.n_materials; m++) {
+        const scenario_material *material = &s->satellite.materials[m];
+        bool found = false;
+        for (int b = 0; b < s->n_bands && !found; b++)
+            for (int l = 0; l < material->bands[b].n_lobes; l++)
+                found = found || material->bands[b].lobes[l].model->specular;
+        if (found)
+            reading_note(rd, errors_add(rd->errors, GLINT_INPUT, material->where,
+                                        "material '%s' is a perfect mirror, which shows the Sun's "
+                                        "disc, and the Sun is a point here (solar_disc = "
+                                        "\"point\"); expected a narrow lobe such as brdf = "
+                                        "\"ward-gmd\"",
+                                        material->name));
+    }
 }
 
 void warn_of_materials(reading *rd)

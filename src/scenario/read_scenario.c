@@ -1,6 +1,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "scenario/read_material.h"
 #include "scenario/reading.h"
 
 #include <math.h>
@@ -464,6 +465,7 @@ static void read_all(reading *rd, toml_document *document)
     read_output(rd, &root);
     s->has_satellite = !rd->orbit_only || names_satellite(&root);
     if (s->has_satellite) read_satellite(rd, &root);
+    if (rd->status == GLINT_OK) refuse_mirrors(rd);
     s->needs_moon = !s->has_geometry && rd->status == GLINT_OK && wants_moon(s);
     read_expectations(rd, &root);
     reader_refuse(&root, "observed", "comparing with an observed track comes later");
