@@ -51,7 +51,7 @@ const brdf_model brdf_mirror = {
               "and Wolf 1999, Principles of Optics, sections 1.5 and 14.2",
     .params = params,
     .n_params = sizeof params / sizeof params[0],
-    .flags = BRDF_ISOTROPIC,
+    .flags = BRDF_ISOTROPIC | BRDF_PASSIVE,
     .prepare = prepare,
     .eval = brdf_eval,
     .tile = brdf_tile,
