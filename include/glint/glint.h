@@ -393,6 +393,8 @@ typedef struct glint_brdf_layout {
     const char *columns;
     bool signed_zenith; /* theta may be negative, which means the opposite azimuth */
     bool radians;       /* angles in rad instead of deg */
+    bool unit_given;    /* deg are meant where radians is false, also if they look like rad: none
+                           from the normal above pi/2 and no azimuth above 2 pi */
     double floor;       /* 1/sr; rows with f at or below it are left out */
 } glint_brdf_layout;
 
@@ -519,7 +521,7 @@ double glint_material_mirrored(const glint_material *material, double theta_i);
 
 /* The directional-hemispherical reflectance: the part of the light from one direction that is sent
  * back. theta_i: rad, 0 <= theta_i < pi/2. error_bound: estimate of the absolute error of *dhr,
- * NULL allowed; 1e-8 of it is aimed at. Errors: GLINT_ARGUMENT for theta_i; GLINT_INPUT where so
+ * NULL allowed; 1e-8 of it is aimed at, 1e-5 of measured tables. Errors: GLINT_ARGUMENT for theta_i; GLINT_INPUT where so
  * much could not be reached (*dhr and *error_bound hold what was); GLINT_INTERNAL. */
 glint_status glint_material_dhr(const glint_material *material, double theta_i, double phi_i,
                                 double *dhr, double *error_bound, glint_error *error);

@@ -520,7 +520,10 @@ static glint_status read_scenario(const char *path, const char *const *overrides
                                   size_t n_overrides, bool orbit_only, glint_scenario **out,
                                   glint_errors *errors)
 {
-    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK, orbit_only};
+    reading rd = {.overrides = overrides,
+                  .n_overrides = n_overrides,
+                  .errors = errors,
+                  .orbit_only = orbit_only};
     const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;
@@ -554,7 +557,7 @@ glint_status glint_scenario_read_orbit(const char *path, const char *const *over
 glint_status scenario_read_model(const char *path, const char *const *overrides, size_t n_overrides,
                                  glint_scenario **out, glint_errors *errors)
 {
-    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK, false};
+    reading rd = {.overrides = overrides, .n_overrides = n_overrides, .errors = errors};
     const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;
