@@ -153,6 +153,39 @@ static int find_name(const cells *header, const char *name)
     return -1;
 }
 
+static bool has_no_columns(const measured_format *format)
+{
+    for (int q = 0; q < MEASURED_COLUMNS; q++)
+        if (format->column[q].name || format->column[q].number) return false;
+    return true;
+}
+
+/* Whether a column of that name is wanted for some quantity. */
+static bool is_wanted(const measured_format *format, const char *name)
+{
+    const bool usual = has_no_columns(format);
+    for (int q = 0; q < MEASURED_COLUMNS; q++) {
+        const char *wanted = usual ? names[q] : format->column[q].name;
+        if (wanted && string_equal(wanted, name)) return true;
+    }
+    return false;
+}
+
+/* The columns of the header that have no use yet, as terminated names in *all, which they borrow.
+ */
+static size_t unused_names(const reader *r, text *all, const char *out[MOST_COLUMNS])
+{
+    size_t n = 0;
+    for (int k = 0; k < r->header.n; k++) {
+        text_append(all, r->header.at[k].text, r->header.at[k].length);
+        text_char(all, '\0');
+    }
+    const char *at = all->failed ? NULL : all->data;
+    for (int k = 0; at && k < r->header.n; k++, at += strlen(at) + 1)
+        if (!is_wanted(r->format, at)) out[n++] = at;
+    return n;
+}
+
 /* Says that there is no column of that name, and which there are. */
 static void fail_name(reader *r, const char *name, place where)
 {
@@ -163,31 +196,20 @@ static void fail_name(reader *r, const char *name, place where)
                            r->path, name));
         return;
     }
-    text list = {0}, cut = {0}; /* the latter with ends of texts between the names */
+    text list = {0}, all = {0};
+    const char *unused[MOST_COLUMNS];
+    const size_t n_unused = unused_names(r, &all, unused);
+    const char *near = nearest_name(name, unused, n_unused);
     for (int k = 0; k < r->header.n; k++) {
         text_add(&list, k ? ", " : "");
         text_append(&list, r->header.at[k].text, r->header.at[k].length);
-        text_append(&cut, r->header.at[k].text, r->header.at[k].length);
-        text_char(&cut, '\0');
     }
-    const char *all[MOST_COLUMNS], *at = cut.failed ? NULL : cut.data;
-    int n = 0;
-    for (; at && n < r->header.n; at += strlen(at) + 1)
-        all[n++] = at;
-    const char *near = nearest_name(name, all, (size_t)n);
     fail(r, errors_add(r->errors, GLINT_INPUT, where,
                        "'%s' has no column '%.60s'%s%.60s%s; it has: %.600s", r->path, name,
                        near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "",
                        list.data ? list.data : ""));
     text_free(&list);
-    text_free(&cut);
-}
-
-static bool has_no_columns(const measured_format *format)
-{
-    for (int q = 0; q < MEASURED_COLUMNS; q++)
-        if (format->column[q].name || format->column[q].number) return false;
-    return true;
+    text_free(&all);
 }
 
 static bool may_be_absent(int quantity)
