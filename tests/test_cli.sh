@@ -400,6 +400,21 @@ for words in '--incidence 0 --hemisphere 0' '--geometry angles.csv --dhr' '--dhr
     # shellcheck disable=SC2086
     t "ways to show that exclude each other: $words" 2 brdf show materials.toml $words
 done
+for words in '--incidence 0,0.26,0.52,0.79,1.05' '--incidence 0.5236' '--hemisphere 1.047'; do
+    # shellcheck disable=SC2086
+    t "angles that look like radians: $words" 2 brdf show materials.toml $words
+    has "$err" 'which look like radians; expected degrees, or --angles deg'
+    # shellcheck disable=SC2086
+    t "the same meant as degrees: $words" 0 brdf show materials.toml $words --step 45 --angles deg
+done
+t 'small angles in tenths' 0 brdf show materials.toml:white --incidence 0,0.5,1,1.5 --step 45
+t 'radians' 2 brdf show materials.toml --angles rad
+has "$err" "--angles has 'rad'"
+printf '%s\n' phi_i_deg,theta_i_deg,phi_r_deg,theta_r_deg 0,0.3,0,0.7 0,1.5,0,0.2 >small.csv
+t 'a file of angles that look like radians' 1 brdf show materials.toml:white --geometry small.csv
+has "$err" 'small.csv:3:3:' '1.5: these look like radians'
+t 'a file of small angles' 0 brdf show materials.toml:white --geometry small.csv --angles deg
+has "$out" white,1.5,0,0.2,0
 t 'a map too fine' 2 brdf show materials.toml --hemisphere 0 --step 0.1
 has "$err" 'the step is 0.1 deg'
 t 'curves in a folder that is not there' 3 brdf show materials.toml -o no/such/file.csv
@@ -448,6 +463,17 @@ t 'a fit of a slip' 2 brdf fit measured.csv --signed-zenith --model wrad
 has "$err" "there is no BRDF 'wrad'; did you mean 'ward'?"
 t 'a fit in gradians' 2 "${fit[@]}" --angles grad
 has "$err" "--angles has 'grad'; expected deg or rad"
+t 'a fit of a model of arrays' 2 brdf fit measured.csv --signed-zenith --model lambert,binomial
+has "$err" "'binomial' cannot be fitted: it takes more than single numbers"
+t 'a fit of a measured table' 2 brdf fit measured.csv --signed-zenith --model table
+has "$err" "'table' cannot be fitted"
+t 'a fit of a mirror' 2 brdf fit measured.csv --signed-zenith --model lambert+mirror
+has "$err" "'mirror' cannot be fitted: f is a delta function"
+awk -F, -v OFS=, 'NR > 1 { $1 *= 0.0174532925; $2 *= 0.0174532925 } 1' measured.csv >radians.csv
+t 'a fit to unsaid radians' 1 brdf fit radians.csv --signed-zenith --model lambert
+has "$err" 'radians.csv:2:10:' 'these look like radians' '--angles'
+t 'a fit to radians' 0 brdf fit radians.csv --signed-zenith --model lambert --angles rad
+t 'a fit to small degrees' 0 brdf fit radians.csv --signed-zenith --model lambert --angles deg
 t 'a fit beyond the horizon' 2 "${fit[@]}" --max-zenith 95
 t 'a fit to an absent file' 1 brdf fit absent.csv --model ward
 t 'a fit to unsigned angles' 1 brdf fit measured.csv --model ward
@@ -503,6 +529,12 @@ holds 'help topics complete' [ "$(complete_words glint help ver)" = 'verify ' ]
 holds 'files complete' [ "$(complete_words glint run plate.t)" = 'plate.toml ' ]
 holds 'output files complete' [ "$(complete_words glint run -o brok)" = 'broken.toml ' ]
 holds 'picture files complete' [ "$(complete_words glint run --plot brok)" = 'broken.toml ' ]
+holds 'models to fit complete' [ "$(complete_words glint brdf fit --model 'lambert,2*abg+ward-g')" = 'lambert,2*abg+ward-gmd ' ]
+holds 'what cannot be fitted does not complete' [ "$(complete_words glint brdf fit --model bino)" = ' ' ]
+holds 'models complete behind =' [ "$(complete_words glint brdf fit --model = ha)" = 'hapke ' ]
+holds 'the first column completes' [ "$(complete_words glint brdf fit --columns phi_)" = 'phi_i= phi_r= ' ]
+holds 'the next column completes' [ "$(complete_words glint brdf fit --columns theta_i = 1,theta_r = 2,f)" = '2,f= ' ]
+holds 'data complete behind columns' [ "$(complete_words glint brdf fit --columns f = 5 measured.c)" = 'measured.csv ' ]
 holds 'angles do not complete' [ "$(complete_words glint brdf show --incidence '')" = ' ' ]
 
 # ------------------------------------------------- the table, as others read it

@@ -191,7 +191,7 @@ static brdf_lobe lobe_with(const char *name, const truth *given)
 
 static bool is_fitted_here(const brdf_model *brdf)
 {
-    return !brdf->prepare_lobe && !brdf->specular && brdf->n_params <= 6;
+    return fit_takes(brdf) && brdf->n_params <= 6;
 }
 
 START_TEST(test_fit_recovers_parameters_of_every_model_without_noise)

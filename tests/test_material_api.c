@@ -750,6 +750,26 @@ START_TEST(test_material_view_that_cannot_be_is_refused)
 }
 END_TEST
 
+/* Small angles, where they can be degrees alone or are said to be. */
+START_TEST(test_material_angles_of_a_file_may_be_small)
+{
+    static const char *const texts[] = {
+        "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0.5,0,0.5,180\n",
+        "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,0,0\n",
+        "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0.5,0,0.5,0\n",
+    };
+    for (int k = 0; k < 3; k++) {
+        const glint_material_view view = {.kind = GLINT_VIEW_ANGLES,
+                                          .angles = write_file("angles.csv", texts[k]),
+                                          .unit_given = k == 2};
+        csv_table got = show(&view);
+        ck_assert_int_eq(got.n_rows, 2);
+        assert_near(table_number(&got, 0, "theta_r_deg"), k == 1 ? 0 : 0.5, 0);
+        csv_free(&got);
+    }
+}
+END_TEST
+
 START_TEST(test_material_angles_of_a_file_that_are_wrong_are_refused_with_places)
 {
     static const struct {
@@ -761,6 +781,8 @@ START_TEST(test_material_angles_of_a_file_that_are_wrong_are_refused_with_places
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,x,0\n", "'x'", 2},
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,0,0\n0,0,91,0\n", "found 91", 3},
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,-400,0,0\n", "found -400", 2},
+        {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,0.5,0\n0.1,3.1416,1.5708,0\n1,0,0,0\n",
+         "1.5708: these look like radians", 3},
     };
     for (size_t k = 0; k < COUNT_OF(cases); k++) {
         const char *path = write_file("angles.csv", cases[k].text);
@@ -806,6 +828,7 @@ int main(void)
     tcase_add_test(all, test_material_table_of_reflectances);
     tcase_add_test(all, test_material_table_calls_materials_by_their_labels);
     tcase_add_test(all, test_material_view_that_cannot_be_is_refused);
+    tcase_add_test(all, test_material_angles_of_a_file_may_be_small);
     tcase_add_test(all, test_material_angles_of_a_file_that_are_wrong_are_refused_with_places);
     suite_add_tcase(suite, all);
     return run_suite(suite);

@@ -383,6 +383,9 @@ const char *glint_brdf_source(size_t k);
 /* Parameter j of model k; false past the end. */
 bool glint_brdf_parameter(size_t k, size_t j, glint_brdf_param *out);
 
+/* Whether glint_brdf_fit takes model k: it has values everywhere, and numbers alone as parameters. */
+bool glint_brdf_can_be_fitted(size_t k);
+
 /* How a file of measured BRDF values is laid out: rows of numbers, parted by commas, semicolons or
  * blanks; lines that begin with # are skipped. Zero-initialise for what is usual. */
 typedef struct glint_brdf_layout {
@@ -552,6 +555,8 @@ typedef struct glint_material_view {
                         them. Pictures are as fine as they need be */
     const char *angles; /* file with columns theta_i_deg, phi_i_deg, theta_r_deg, phi_r_deg; of
                            GLINT_VIEW_ANGLES */
+    bool unit_given;    /* its angles are in deg indeed, also if they look like rad: none from the
+                           normal above pi/2 and no azimuth above 2 pi */
     const char *const *labels; /* what materials are called in columns and legends; NULL: by name */
     bool logarithmic;          /* scale of the picture */
 } glint_material_view;

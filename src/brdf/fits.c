@@ -42,6 +42,12 @@ void glint_brdf_fits_free(glint_brdf_fits *fits)
     free(fits);
 }
 
+bool glint_brdf_can_be_fitted(size_t k)
+{
+    const brdf_model *model = brdf_model_at(k);
+    return model && fit_takes(model);
+}
+
 /* ------------------------------------------------------------------ columns */
 
 /* Which quantity is called by the n bytes at `name`; -1 for none. */

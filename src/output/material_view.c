@@ -139,7 +139,35 @@ static glint_status read_row(const csv_table *table, long row, const int columns
     return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
 }
 
-static glint_status read_angles(const char *path, view_points *points, glint_errors *errors)
+/* Refuses angles that look like rad. All 0 is the same in any unit. */
+static glint_status check_unit(const csv_table *table, const int columns[4],
+                               const view_points *points, glint_errors *errors)
+{
+    static const double MOST_ZENITH = 1.571, MOST_AZIMUTH = 6.284; /* pi/2 and 2 pi, rounded up */
+    double zenith = 0, azimuth = 0;
+    long row = 0;
+    int column = 0;
+    for (size_t k = 0; k < points->n; k++) {
+        const view_point *p = &points->items[k];
+        azimuth = fmax(azimuth, fmax(fabs(p->phi_i_deg), fabs(p->phi_r_deg)));
+        const double zeniths[2] = {fabs(p->theta_i_deg), fabs(p->theta_r_deg)};
+        for (int j = 0; j < 2; j++) {
+            if (!(zeniths[j] > zenith)) continue;
+            zenith = zeniths[j];
+            row = (long)k;
+            column = columns[2 * j];
+        }
+    }
+    if (!(zenith > 0) || zenith > MOST_ZENITH || azimuth > MOST_AZIMUTH) return GLINT_OK;
+    const csv_cell *cell = csv_at(table, row, column);
+    return errors_add(errors, GLINT_INPUT, csv_place(table, cell),
+                      "the largest angle from the normal is %.40s: these look like radians; "
+                      "expected degrees, or --angles deg where degrees are so small",
+                      cell->text);
+}
+
+static glint_status read_angles(const char *path, bool unit_given, view_points *points,
+                                glint_errors *errors)
 {
     static const char *const NAMES[4] = {"theta_i_deg", "phi_i_deg", "theta_r_deg", "phi_r_deg"};
     csv_table table;
@@ -163,6 +191,7 @@ static glint_status read_angles(const char *path, view_points *points, glint_err
         if (row_status > status) status = row_status;
         if (status == GLINT_INTERNAL) break;
     }
+    if (!status && !unit_given) status = check_unit(&table, columns, points, errors);
     csv_free(&table);
     points->starts = calloc(2, sizeof *points->starts);
     if (!points->starts) return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
@@ -203,7 +232,7 @@ glint_status view_points_make(const glint_material_view *view, view_points *out,
     glint_status status = view_check(view, errors);
     if (status) return status;
     if (view->kind == GLINT_VIEW_ANGLES)
-        status = read_angles(view->angles, out, errors);
+        status = read_angles(view->angles, view->unit_given, out, errors);
     else if (!add_runs(view, out))
         status = errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
     if (status) view_points_free(out);
