@@ -209,6 +209,8 @@ t 'the same table after --' 0 run -- plate.toml
 holds 'the same table' cmp -s table "$out"
 t 'an override' 0 run plate.toml --set 'photometry.bands=["V", "R"]'
 has "$out" mag_V, mag_R,
+t 'an override without a key' 2 run plate.toml --set '#=1'
+has "$err" "--set '#=1': there is no key; expected key=value"
 t 'two overrides' 0 run plate.toml --set 'photometry.bands=["R"]' --set geometry.range_km=2000
 has "$out" mag_R,
 lacks "$out" mag_V,
@@ -234,6 +236,17 @@ has "$err" 'rows       3'
 holds 'the same table' cmp -s table file.csv
 (umask 027 && "$glint" run -q plate.toml --output=private.csv)
 holds 'permissions follow the umask' [ "$(stat -c %a private.csv)" = 640 ]
+mkdir elsewhere
+ln -s elsewhere/new.csv dangling.csv
+ln -s dangling.csv chain.csv
+t 'a link to where nothing is' 0 run plate.toml -q -o chain.csv
+holds 'the links stay' [ -L chain.csv -a -L dangling.csv ]
+holds 'the file is written where they point to' cmp -s table elsewhere/new.csv
+ln -s loop.csv loop.csv
+t 'a link to itself' 3 run plate.toml -q -o loop.csv
+ln -s no/such/folder.csv lost.csv
+t 'a link into a folder that is not there' 3 run plate.toml -q -o lost.csv
+holds 'the link stays' [ -L lost.csv ]
 ln -s file.csv link.csv
 t 'a link' 0 run plate.toml -qolink.csv
 empty "$err"

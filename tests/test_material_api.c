@@ -417,6 +417,32 @@ START_TEST(test_material_of_a_band_has_what_differs_in_it)
 END_TEST
 
 /* The published parameters hold at 10.6 um. */
+/* Keys that the band's model does not have, and the spectrum, are those of the other model. */
+START_TEST(test_material_of_a_band_may_be_of_another_model)
+{
+    const char *path = write_file(
+        "m.toml",
+        "[materials.film]\nbrdf = \"ward-gmd\"\nrho_s = 0.3\nalpha_x = 0.1\n"
+        "alpha_y = 0.1\nspectrum = [ { wavelength_um = 0.4, rho_d = 0.1 },\n"
+        "  { wavelength_um = 0.9, rho_d = 0.2 } ]\n"
+        "[materials.film.bands.V]\nbrdf = \"lambert\"\nrho = 0.4\n"
+        "[materials.film.bands.R]\nbrdf = \"sum\"\n"
+        "parts = [ { brdf = \"lambert\", rho = 0.1 }, { brdf = \"lambert\", rho = 0.2 } ]\n");
+    static const struct {
+        const char *band;
+        double f;
+    } cases[] = {{"V", 0.4 / PI}, {"R", 0.3 / PI}};
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        glint_material *film = read_good(path, "film", cases[k].band);
+        assert_rel(f_of(film, 10, 0, 50, 70), cases[k].f, 1e-14);
+        glint_material_free(film);
+    }
+    glint_material *film = read_good(path, "film", NULL);
+    ck_assert_ptr_nonnull(strstr(glint_material_model(film), "ward-gmd"));
+    glint_material_free(film);
+}
+END_TEST
+
 START_TEST(test_material_far_from_where_it_holds_is_warned_of_in_a_band_alone)
 {
     for (int in_band = 0; in_band < 2; in_band++) {
@@ -814,6 +840,7 @@ int main(void)
     tcase_add_test(all, test_material_that_mirrors_says_how_much);
     tcase_add_test(all, test_material_table_says_what_f_leaves_out);
     tcase_add_test(all, test_material_of_a_band_has_what_differs_in_it);
+    tcase_add_test(all, test_material_of_a_band_may_be_of_another_model);
     tcase_add_test(all, test_material_far_from_where_it_holds_is_warned_of_in_a_band_alone);
     tcase_add_test(all, test_material_names_come_in_the_order_of_the_files);
     tcase_add_test(all, test_material_is_found_in_models_and_scenarios);
