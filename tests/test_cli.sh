@@ -492,6 +492,27 @@ t 'a fit to an absent file' 1 brdf fit absent.csv --model ward
 t 'a fit to unsigned angles' 1 brdf fit measured.csv --model ward
 has "$err" 'measured.csv:2:4:'
 t 'a picture of another kind' 2 "${fit[@]}" --plot fits.gif
+cat >panel.toml <<'END'
+[geometry]
+sweep = { phase_deg = [0, 85, 17], plane = "xz" }
+[materials.panel]
+brdf = "table"
+file = "measured.csv"
+signed_zenith = true
+[[component]]
+name = "c"
+[[component.plate]]
+size_m = [1, 1]
+normal = [0, 0, 1]
+tangent = [1, 0, 0]
+material = "panel"
+END
+t 'a run with a measured material' 0 run panel.toml
+has "$out" 'measured: "material panel in V: 81 rows of the plane of incidence'
+# the light comes from up to 85 deg, and was measured up to 80 deg
+has "$err" 'unmeasured panel: in 1 of 6 rows' 'the nearest measured values are taken'
+t 'the same quietly' 0 run panel.toml -q
+lacks "$err" unmeasured
 
 # ---------------------------------------------------------------- terminals
 

@@ -142,6 +142,12 @@ glint_status glint_curve_next(glint_curve *curve, const glint_row **rows, size_t
 int64_t glint_curve_done(const glint_curve *curve);
 /* Number of threads that it computes with. */
 int glint_curve_threads(const glint_curve *curve);
+/* Measured material k from 0 of those whose table does not cover the hemisphere, and in how many of
+ * the rows handed out so far some facet of it was lit and seen at angles between which nothing was
+ * measured: the nearest measured values were taken there. False past the end. *material borrowed.
+ */
+bool glint_curve_unmeasured(const glint_curve *curve, size_t k, const char **material,
+                            int64_t *rows);
 /* Name of the first band, "V". Borrowed. */
 const char *glint_curve_band(const glint_curve *curve);
 /* Time between rows in s; 0 where the scenario gives directions instead of times. */

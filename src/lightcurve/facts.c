@@ -2,6 +2,7 @@
 
 #include "base/constants.h"
 #include "base/text.h"
+#include "brdf/table.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -186,6 +187,29 @@ static void add_origin(const glint_scenario *s, fact_list *out)
         add(out, "set", "%s", s->overrides[k]);
 }
 
+/* What of the hemisphere measured materials cover. */
+static void add_measured(const glint_scenario *s, fact_list *out)
+{
+    for (int m = 0; m < s->satellite.n_materials; m++)
+        for (int b = 0; b < s->n_bands; b++) {
+            if (s->satellite.model.same_band[m * s->n_bands + b] != b) continue;
+            const brdf_material *band = &s->satellite.materials[m].bands[b];
+            for (int l = 0; l < band->n_lobes; l++) {
+                if (!(band->lobes[l].model->flags & BRDF_MEASURED)) continue;
+                table_facts facts;
+                table_describe(&band->lobes[l], &facts);
+                add(out, "measured",
+                    "material %s in %s: %d rows%s; %.0f %% of the hemisphere lie between them, and "
+                    "elsewhere the nearest values hold",
+                    s->satellite.materials[m].name, s->bands[b]->name, facts.n_rows,
+                    facts.in_plane ? " of the plane of incidence, carried out of it as if f did "
+                                     "not depend on phi_d"
+                                   : "",
+                    100.0 * facts.covered);
+            }
+        }
+}
+
 void facts_of_orbit(const glint_scenario *s, fact_list *out)
 {
     add_origin(s, out);
@@ -200,6 +224,7 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
         add(out, "geometry", "directions given in the body frame, the Sun at 1 au");
     else
         add_time(s, out);
+    add_measured(s, out);
     add(out, "self_shadows",
         s->self_shadows == SHADOWS_NONE
             ? "none: shadows that parts cast on each other are neglected"
