@@ -609,6 +609,8 @@ START_TEST(test_brdf_public_table_lists_every_model)
             ck_assert(glint_brdf_parameter(k, (size_t)j, &param));
             ck_assert_ptr_eq(param.name, model->params[j].name);
             ck_assert(param.required == param_is_required(&model->params[j]));
+            ck_assert(param.min_open == ((model->params[j].flags & PARAM_MIN_OPEN) != 0));
+            ck_assert(param.max_open == ((model->params[j].flags & PARAM_MAX_OPEN) != 0));
             ck_assert_int_eq(param.dimensions, model->params[j].flags & PARAM_ROWS ? 2 : 0);
         }
         ck_assert(!glint_brdf_parameter(k, (size_t)model->n_params, &param));

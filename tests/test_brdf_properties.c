@@ -9,6 +9,7 @@
 
 /* Room for why a property does not hold. */
 enum { WHY = 256 };
+#define ABOVE 1e-6 /* cosines above which f itself is asked for */
 
 typedef struct property {
     const char *name;
@@ -69,11 +70,13 @@ static bool for_many_pairs(const brdf_model *model, const double *coef, uint64_t
 
 /* ------------------------------------------------------------------ the scalar */
 
+/* g everywhere, and f = g/(ci cr) where both cosines are above 1e-6. */
 static bool is_usable(const brdf_model *model, const double *coef, const double i[3],
                       const double r[3], char why[WHY])
 {
-    const double g = model->eval(coef, i, r);
-    if (isfinite(g) && g >= 0.0) return true;
+    const double g = model->eval(coef, i, r), w = i[2] * r[2];
+    const bool finite = isfinite(g) && (i[2] <= ABOVE || r[2] <= ABOVE || isfinite(g / w));
+    if (finite && g >= 0.0) return true;
     return broken(why, "g = %g at i = (%g %g %g), r = (%g %g %g)", g, i[0], i[1], i[2], r[0], r[1],
                   r[2]);
 }

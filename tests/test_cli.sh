@@ -181,6 +181,10 @@ has "$err" "'glint run' needs SCENARIO"
 t 'two scenarios' 2 run plate.toml good.toml
 t 'no file to check' 2 check
 t 'no file to verify' 2 verify
+t 'the list of models' 0 brdf list
+empty "$err"
+has "$out" 'lambert: ' 'mirror: ' 'table: ' '    source: ' 'above 0 to 100' 'above -1 to below 1' \
+    '(rows)' required optional 'default 0'
 t 'a file too many' 2 brdf list plate.toml
 t 'a list without scenario takes no override' 2 brdf list --set a=1
 t 'threads in words' 2 run plate.toml --threads two

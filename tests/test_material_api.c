@@ -145,6 +145,37 @@ START_TEST(test_material_file_that_ships_holds_the_published_materials)
 }
 END_TEST
 
+/* What is published of mirrors: reflectances of metals at normal incidence, to three digits, and
+ * the shares of sunlight that navigation satellites absorb and mirror. */
+START_TEST(test_material_files_that_ship_hold_the_published_mirrors)
+{
+    static const char METALS[] = SCENARIO_DIR "/materials/metals.toml",
+                      NAVIGATION[] = SCENARIO_DIR "/materials/navigation.toml";
+    static const struct {
+        const char *path, *name;
+        double mirrored, reflected;
+    } published[] = {{METALS, "aluminium-mirror", 0.921, 0.921},
+                     {METALS, "silver-mirror", 0.960, 0.960},
+                     {METALS, "gold-mirror", 0.848, 0.848},
+                     {NAVIGATION, "galileo-foc-a", 0.00, 0.07},
+                     {NAVIGATION, "galileo-foc-b", 0.22, 0.43},
+                     {NAVIGATION, "galileo-foc-c", 0.73, 0.92},
+                     {NAVIGATION, "galileo-foc-array-d", 0.10, 0.10},
+                     {NAVIGATION, "galileo-foc-array-e", 0.08, 0.08},
+                     {NAVIGATION, "gps-ii-body", 0.20 * 0.56, 0.56},
+                     {NAVIGATION, "gps-ii-panel", 0.85 * 0.23, 0.23},
+                     {NAVIGATION, "gps-iir-panel", 0.85 * 0.28, 0.28}};
+    for (size_t k = 0; k < COUNT_OF(published); k++) {
+        glint_material *m = read_good(published[k].path, published[k].name, NULL);
+        double dhr;
+        assert_near(glint_material_mirrored(m, 0), published[k].mirrored, 5e-4);
+        ck_assert_int_eq(glint_material_dhr(m, 0, 0, &dhr, NULL, NULL), GLINT_OK);
+        assert_near(dhr, published[k].reflected, 5e-4);
+        glint_material_free(m);
+    }
+}
+END_TEST
+
 static void check_reflectance(const char *path)
 {
     static const char *const NAMES[][2] = {{"panel", "solar-panel"}, {"mli", "mli"}};
@@ -828,6 +859,7 @@ int main(void)
     tcase_set_timeout(all, 120);
     tcase_add_test(all, test_material_brdf_matches_reference);
     tcase_add_test(all, test_material_file_that_ships_holds_the_published_materials);
+    tcase_add_test(all, test_material_files_that_ship_hold_the_published_mirrors);
     tcase_add_test(all, test_material_dhr_matches_reference);
     tcase_add_test(all, test_material_peak_matches_reference);
     tcase_add_test(all, test_material_peak_of_mli_is_four_times_that_of_the_panel);
