@@ -319,9 +319,9 @@ static void check_wrong(const wrong *w, measured_format format)
 START_TEST(test_measured_reports_every_error_at_its_place)
 {
     static const wrong cases[] = {
-        {"", {{0, 0, "found 0 usable rows", false}}},
-        {"# a\n\n", {{0, 0, "found 0 usable rows", false}}},
-        {"1 2 3\n4 5 6\n", {{0, 0, "found 2 usable rows", false}}},
+        {"", {{0, 0, "found 0 rows of numbers", false}}},
+        {"# a\n\n", {{0, 0, "found 0 rows of numbers", false}}},
+        {"1 2 3\n4 5 6\n", {{0, 0, "found 2 rows of numbers", false}}},
         {"1 2 3\n4 5 6\n7 8 0\n", {{0, 0, "found 2 usable rows (and 1 without light)", false}}},
         {"1 2 3\n4 5\n7 8 9 10\n1 2 3\n1 2 3\n",
          {{2, 1, "has 2 cells; expected 3", false}, {3, 1, "has 4 cells", false}}},
@@ -399,11 +399,11 @@ START_TEST(test_measured_last_row_without_line_end_is_left_out)
     end_reading(&r);
     check_wrong(
         &(const wrong){"1 2 3\n4 5 6\n7 8 9",
-                       {{3, 1, "no line end", false}, {0, 0, "found 2 usable rows", false}}},
+                       {{3, 1, "no line end", false}, {0, 0, "found 2 rows of numbers", false}}},
         format);
     check_wrong(
         &(const wrong){"7 8 9",
-                       {{1, 1, "no line end", false}, {0, 0, "found 0 usable rows", false}}},
+                       {{1, 1, "no line end", false}, {0, 0, "found 0 rows of numbers", false}}},
         format);
 }
 END_TEST

@@ -979,7 +979,7 @@ START_TEST(test_table_refuses_rows_that_make_no_table)
         {"theta_i,theta_r,f\n30,10,1\n10,30,2\n30,10,1\n", 0, "measure 1 place of"},
         {"theta_i,theta_r,f\n0.5,0.1,1\n0.5,0.2,2\n0.5,0.3,1\n", 2, "these look like radians"},
         {"theta_i,thetar,f\n30,10,1\n30,20,2\n30,40,1\n", 3, "(did you mean 'thetar'?)"},
-        {"", 0, "found 0 usable rows"},
+        {"", 0, "found 0 rows of numbers"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const folder f = make_folder("[materials.m]\nbrdf = \"table\"\nfile = \"rows.csv\"\n");

@@ -469,9 +469,14 @@ static void read_bytes(reader *r, const char *bytes, size_t size)
     if (r->status) return;
     check_unit(r);
     if (r->out->n < FEWEST)
-        fail(r, errors_add(r->errors, GLINT_INPUT, (place){r->path, 0, 0},
-                           "found %d usable rows (and %d without light); expected at least %d",
-                           r->out->n, r->out->n_dropped, FEWEST));
+        fail(r,
+             r->out->n_dropped > 0
+                 ? errors_add(r->errors, GLINT_INPUT, (place){r->path, 0, 0},
+                              "found %d usable rows (and %d without light); expected at least "
+                              "%d",
+                              r->out->n, r->out->n_dropped, FEWEST)
+                 : errors_add(r->errors, GLINT_INPUT, (place){r->path, 0, 0},
+                              "found %d rows of numbers; expected at least %d", r->out->n, FEWEST));
     r->out->in_plane = true;
     for (int k = 0; k < r->out->n; k++)
         if (!is_in_plane(&r->out->points[k])) r->out->in_plane = false;
