@@ -1,6 +1,7 @@
 /* measured.c: reads files of measured BRDF values. */
 #include "brdf/measured.h"
 
+#include "base/angle.h"
 #include "base/constants.h"
 #include "base/text.h"
 
@@ -13,8 +14,6 @@ enum { MOST_COLUMNS = 256 };
 
 /* Azimuths err by the last digit that is written: 1e-6 rad is 0.2 arcsec, finer than any mount. */
 static const double IN_PLANE = 1e-6;
-/* Angles up to these, as numbers, may be rad: right and full angles rounded to four digits. */
-static const double MOST_ZENITH_RAD = 1.571, MOST_AZIMUTH_RAD = 6.284;
 /* How far past 90 deg an angle may lie that was rounded when it was turned into rad; rad. */
 static const double PAST_HORIZON = 1e-8;
 
@@ -332,12 +331,12 @@ static void note_angles(reader *r, const double value[MEASURED_COLUMNS])
     }
 }
 
-/* Refuses angles that are rad where nobody said so. All 0 is the same in any unit. */
+/* Refuses angles that are rad where nobody said so. */
 static void check_unit(reader *r)
 {
     const measured_format *format = r->format;
-    if (format->radians || format->unit_given || !(r->most_zenith > 0.0)) return;
-    if (r->most_zenith > MOST_ZENITH_RAD || r->most_azimuth > MOST_AZIMUTH_RAD) return;
+    if (format->radians || format->unit_given) return;
+    if (!angles_look_like_rad(r->most_zenith, r->most_azimuth)) return;
     fail(r, errors_add(r->errors, GLINT_INPUT, r->most_zenith_at,
                        "the largest angle from the normal is %.10g: these look like radians; "
                        "expected degrees, or the unit said outright: angles = \"rad\", or angles = "

@@ -9,11 +9,10 @@
 /* A measured lobe that has a weight and does not cover the hemisphere. */
 static bool is_watched(const brdf_lobe *lobe)
 {
-    static const double WHOLE = 0.995; /* found to about 1 % */
     if (!(lobe->model->flags & BRDF_MEASURED) || lobe->weight == 0.0) return false;
     table_facts facts;
     table_describe(lobe, &facts);
-    return facts.in_plane || facts.covered < WHOLE;
+    return !facts.whole;
 }
 
 /* The lobes of material m in all bands that differ; false when memory is out. */

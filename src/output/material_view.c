@@ -1,5 +1,6 @@
 #include "output/material_view.h"
 
+#include "base/angle.h"
 #include "base/constants.h"
 #include "base/csv.h"
 
@@ -139,11 +140,10 @@ static glint_status read_row(const csv_table *table, long row, const int columns
     return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
 }
 
-/* Refuses angles that look like rad. All 0 is the same in any unit. */
+/* Refuses angles that look like rad. */
 static glint_status check_unit(const csv_table *table, const int columns[4],
                                const view_points *points, glint_errors *errors)
 {
-    static const double MOST_ZENITH = 1.571, MOST_AZIMUTH = 6.284; /* pi/2 and 2 pi, rounded up */
     double zenith = 0, azimuth = 0;
     long row = 0;
     int column = 0;
@@ -158,7 +158,7 @@ static glint_status check_unit(const csv_table *table, const int columns[4],
             column = columns[2 * j];
         }
     }
-    if (!(zenith > 0) || zenith > MOST_ZENITH || azimuth > MOST_AZIMUTH) return GLINT_OK;
+    if (!angles_look_like_rad(zenith, azimuth)) return GLINT_OK;
     const csv_cell *cell = csv_at(table, row, column);
     return errors_add(errors, GLINT_INPUT, csv_place(table, cell),
                       "the largest angle from the normal is %.40s: these look like radians; "

@@ -181,7 +181,6 @@ void read_measured(reader *r, measured_cache *cache, brdf_lobe *lobe)
 void warn_of_measured(const brdf_material *material, const char *name, place where,
                       glint_errors *errors)
 {
-    static const double WHOLE = 0.995; /* found to about 1 % */
     for (int k = 0; k < material->n_lobes; k++) {
         if (!(material->lobes[k].model->flags & BRDF_MEASURED)) continue;
         table_facts facts;
@@ -194,7 +193,7 @@ void warn_of_measured(const brdf_material *material, const char *name, place whe
                 "out of it as if f did not depend on phi_d; so %.0f %% of the hemisphere lie "
                 "between its measurements, and elsewhere the nearest values hold",
                 name, percent);
-        else if (facts.covered < WHOLE)
+        else if (!facts.whole)
             errors_warn(errors, where,
                         "material '%s' was measured in a part of the hemisphere: %.0f %% lie "
                         "between its measurements, and elsewhere the nearest values hold",
