@@ -1,6 +1,7 @@
 /* BRDF models against reference values, and the table of models. */
 #include "base/constants.h"
 #include "brdf/brdf.h"
+#include "brdf/sharpness.h"
 #include "table.h"
 
 /* ------------------------------------------------------------------ helpers */
@@ -486,6 +487,21 @@ START_TEST(test_mirror_reflectance_with_index_is_fresnel)
 }
 END_TEST
 
+/* No tilt is too small to change what a mirror shows; without a weight it shows nothing. */
+START_TEST(test_mirror_is_sharper_than_any_lobe)
+{
+    brdf_lobe lobes[2] = {
+        {.model = brdf_model_named("mirror"), .weight = 1, .params = {1, PARAM_NONE, PARAM_NONE}},
+        {.model = brdf_model_named("lambert"), .weight = 1, .params = {0.5}}};
+    for (int k = 0; k < 2; k++)
+        ck_assert_int_eq(brdf_lobe_prepare(&lobes[k], NULL), GLINT_OK);
+    const brdf_material both = {.n_lobes = 2, .lobes = lobes};
+    assert_near(brdf_material_width(&both), 0, 0);
+    lobes[0].weight = 0;
+    ck_assert(brdf_material_width(&both) == HUGE_VAL);
+}
+END_TEST
+
 START_TEST(test_mirror_refuses_absorption_without_index)
 {
     double coef[BRDF_MAX_COEF];
@@ -664,6 +680,7 @@ int main(void)
     tcase_add_test(closed, test_abg_peak_and_unit_distance);
     tcase_add_test(closed, test_mirror_reflectance_without_index_is_its_share);
     tcase_add_test(closed, test_mirror_reflectance_with_index_is_fresnel);
+    tcase_add_test(closed, test_mirror_is_sharper_than_any_lobe);
     tcase_add_test(closed, test_mirror_refuses_absorption_without_index);
     tcase_add_test(closed, test_binomial_single_terms);
     tcase_add_test(closed, test_binomial_refuses_shapes_that_do_not_match);
