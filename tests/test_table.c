@@ -721,6 +721,31 @@ START_TEST(test_table_covers_what_lies_between_scans)
 }
 END_TEST
 
+/* Rows near the mirror direction alone: theta_h up to 10 deg, theta_d up to 70 deg. */
+START_TEST(test_table_covers_narrow_scans_near_the_mirror_direction_alone)
+{
+    measured m = {.in_plane = true};
+    for (double theta_r = 40; theta_r <= 80; theta_r += 5)
+        add_angles(&m, 60, theta_r, 0, 1.0);
+    brdf_lobe lobe = table_made(m);
+    ck_assert(covers(&lobe, 0, 0, 180) && covers(&lobe, 30, 30, 180) && covers(&lobe, 60, 60, 180));
+    ck_assert(covers(&lobe, 60, 78, 180) && !covers(&lobe, 40, 62, 180)); /* theta_h 9, 11 deg */
+    ck_assert(!covers(&lobe, 50, 40, 0));                                 /* theta_h 45 deg */
+    brdf_lobe_free(&lobe);
+}
+END_TEST
+
+START_TEST(test_table_covers_its_own_rows)
+{
+    measured m = kind_of_rows(_i);
+    brdf_lobe lobe = table_of(&m);
+    for (int k = 0; k < m.n; k++)
+        ck_assert_msg(table_covers(&lobe, m.points[k].i, m.points[k].r), "row %d", k);
+    brdf_lobe_free(&lobe);
+    measured_free(&m);
+}
+END_TEST
+
 START_TEST(test_table_covers_what_lies_in_a_grid)
 {
     measured m = {.in_plane = false};
@@ -932,6 +957,36 @@ START_TEST(test_table_warns_of_what_was_not_measured)
 }
 END_TEST
 
+/* Values that were not measured are counted where they are shown. */
+START_TEST(test_table_values_outside_are_told_of)
+{
+    static const struct {
+        double theta_i, theta_r; /* deg */
+        bool covered;
+    } cases[] = {{30, 30, true}, {30, -10, true}, {60, 60, true}, {45, 45, true}, {80, 80, false}};
+    const folder f = make_folder(GOOD_TABLE);
+    glint_material *material;
+    ck_assert_int_eq(glint_material_read(f.toml, "m", NULL, &material, NULL), GLINT_OK);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        ck_assert_msg(glint_material_covers(material, cases[k].theta_i * DEG, 0,
+                                            fabs(cases[k].theta_r) * DEG,
+                                            cases[k].theta_r < 0 ? 0 : PI) == cases[k].covered,
+                      "%g and %g deg", cases[k].theta_i, cases[k].theta_r);
+    write_text(f.csv, "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n30,0,30,180\n80,0,80,180\n"
+                      "80,0,85,180\n80,0,90,180\n");
+    const glint_material *const all[] = {material};
+    const glint_material_view view = {.kind = GLINT_VIEW_ANGLES, .angles = f.csv};
+    glint_errors *errors = glint_errors_new();
+    ck_assert_int_eq(glint_material_table_write(all, 1, &view, "/dev/null", errors), GLINT_OK);
+    ck_assert_uint_eq(glint_errors_count(errors), 1);
+    ck_assert_ptr_nonnull(strstr(glint_errors_get(errors, 0)->message,
+                                 "2 of the 4 values of 'm' lie outside of what was measured"));
+    glint_errors_free(errors);
+    glint_material_free(material);
+    remove_folder(&f);
+}
+END_TEST
+
 /* Materials in three bands read their file once for each floor: what is said of it is not said
  * again. */
 START_TEST(test_table_is_read_once_for_all_bands)
@@ -1124,6 +1179,8 @@ int main(void)
     tcase_add_test(truth, test_table_carries_the_plane_out_of_it);
     TCase *cover = add_case(suite, "coverage");
     tcase_add_test(cover, test_table_covers_what_lies_between_scans);
+    tcase_add_test(cover, test_table_covers_narrow_scans_near_the_mirror_direction_alone);
+    tcase_add_loop_test(cover, test_table_covers_its_own_rows, 0, TABLE_KINDS);
     tcase_add_test(cover, test_table_covers_what_lies_in_a_grid);
     tcase_add_test(cover, test_table_reports_the_part_of_the_hemisphere);
     tcase_add_test(cover, test_table_describes_itself);
@@ -1134,6 +1191,7 @@ int main(void)
     tcase_add_test(files, test_table_warns_of_what_was_not_measured);
     tcase_add_test(files, test_table_reports_errors_at_their_places);
     tcase_add_test(files, test_table_is_read_once_for_all_bands);
+    tcase_add_test(files, test_table_values_outside_are_told_of);
     tcase_add_test(files, test_table_refuses_rows_that_make_no_table);
     tcase_add_test(files, test_table_reproduces_laboratory_files);
     return run_suite(suite);

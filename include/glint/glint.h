@@ -523,6 +523,12 @@ const char *glint_material_model(const glint_material *material);
 glint_status glint_material_brdf(const glint_material *material, double theta_i, double phi_i,
                                  double theta_r, double phi_r, double *f, glint_error *error);
 
+/* Whether what is measured of a material was measured around these directions (as above, not below
+ * the horizon): between its measurements. Elsewhere f is the nearest measured one. True of materials
+ * without measured tables. */
+bool glint_material_covers(const glint_material *material, double theta_i, double phi_i,
+                           double theta_r, double phi_r);
+
 /* The part of the light from an incidence theta_i (rad, 0 <= theta_i < pi/2) that goes into the
  * mirror direction alone, as off a perfect mirror: it is no part of f, and part of the reflectance.
  * 0 for other surfaces, and for other angles. */

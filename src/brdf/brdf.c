@@ -119,6 +119,13 @@ void brdf_material_tile(const brdf_material *material, const brdf_facets *facets
     }
 }
 
+bool brdf_material_is_measured(const brdf_material *material)
+{
+    for (int k = 0; k < material->n_lobes; k++)
+        if (material->lobes[k].model->flags & BRDF_MEASURED) return true;
+    return false;
+}
+
 static bool same_number(double a, double b)
 {
     return a == b || (isnan(a) && isnan(b)); /* NAN: not given */

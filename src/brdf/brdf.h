@@ -130,6 +130,8 @@ double brdf_material_specular(const brdf_material *material, double ci);
 /* sum[k] += ... over all lobes, as brdf_model.tile. */
 void brdf_material_tile(const brdf_material *material, const brdf_facets *facets,
                         const brdf_light *light, const double *visible, double sum[BRDF_TILE]);
+/* True when some lobe is measured values: those are good to a percent or so. */
+bool brdf_material_is_measured(const brdf_material *material);
 /* True when two materials are the same function: their sums may be shared. */
 bool brdf_material_same(const brdf_material *a, const brdf_material *b);
 void brdf_material_free(brdf_material *material);

@@ -288,7 +288,8 @@ glint_status brdf_dhr(const brdf_material *material, double theta_i, double phi_
  * the first look, which is good to about SCAN_TOLERANCE, is looked at again. */
 static bool gains_at(const brdf_material *material, double theta_i, double phi_i, double *dhr)
 {
-    static const double in_doubt = 10.0 * SCAN_TOLERANCE, fine = 1e-7, surplus = 1e-6;
+    static const double in_doubt = 10.0 * SCAN_TOLERANCE, surplus = 1e-6;
+    const double fine = brdf_material_is_measured(material) ? 1e-5 : 1e-7;
     double bound = 0.0;
     *dhr = 0.0;
     (void)brdf_dhr(material, theta_i, phi_i, SCAN_TOLERANCE, dhr, &bound, NULL);

@@ -247,6 +247,13 @@ double view_point_brdf(const glint_material *material, const view_point *point)
     return f;
 }
 
+bool view_point_is_unmeasured(const glint_material *material, const view_point *point, double f)
+{
+    return f > 0 &&
+           !glint_material_covers(material, point->theta_i_deg * DEG, point->phi_i_deg * DEG,
+                                  point->theta_r_deg * DEG, point->phi_r_deg * DEG);
+}
+
 double view_point_g(const view_point *point, double f)
 {
     return f * cos(point->theta_i_deg * DEG) * cos(point->theta_r_deg * DEG);

@@ -2,6 +2,7 @@
 #include "base/text.h"
 #include "brdf/dhr.h"
 #include "brdf/peak.h"
+#include "brdf/table.h"
 #include "scenario/read_material.h"
 
 #include <math.h>
@@ -301,6 +302,21 @@ glint_status glint_material_brdf(const glint_material *material, double theta_i,
     return GLINT_OK;
 }
 
+bool glint_material_covers(const glint_material *material, double theta_i, double phi_i,
+                           double theta_r, double phi_r)
+{
+    const brdf_material *function = &inside(material)->bands[0];
+    double i[3], r[3];
+    angles_to_unit(theta_i, phi_i, i);
+    angles_to_unit(theta_r, phi_r, r);
+    for (int k = 0; k < function->n_lobes; k++) {
+        const brdf_lobe *lobe = &function->lobes[k];
+        if (lobe->model->flags & BRDF_MEASURED && lobe->weight != 0.0 && !table_covers(lobe, i, r))
+            return false;
+    }
+    return true;
+}
+
 double glint_material_mirrored(const glint_material *material, double theta_i)
 {
     const double ci = cos(theta_i);
@@ -317,11 +333,8 @@ glint_status glint_material_dhr(const glint_material *material, double theta_i, 
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
                          "an angle is not finite; expected two angles in rad");
     const brdf_material *function = &inside(material)->bands[0];
-    bool is_measured = false;
-    for (int k = 0; k < function->n_lobes; k++)
-        is_measured = is_measured || function->lobes[k].model->flags & BRDF_MEASURED;
-    return brdf_dhr(function, theta_i, phi_i, is_measured ? OF_MEASURED : TOLERANCE, dhr,
-                    error_bound, error);
+    const double tolerance = brdf_material_is_measured(function) ? OF_MEASURED : TOLERANCE;
+    return brdf_dhr(function, theta_i, phi_i, tolerance, dhr, error_bound, error);
 }
 
 bool glint_material_peak(const glint_material *material, double theta_i, double phi_i,
