@@ -834,6 +834,8 @@ START_TEST(test_material_angles_of_a_file_that_are_wrong_are_refused_with_places
         int line;
     } cases[] = {
         {"theta_i_deg,phi_i_deg,theta_r_deg\n0,0,0\n", "no column 'phi_r_deg'", 1},
+        {"theta_i_deg,phi_i_deg,theta_r_deg,phi_o_deg\n0,0,0,0\n",
+         "no column 'phi_r_deg' (is 'phi_o_deg' meant?)", 1},
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n", "no rows", 0},
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,x,0\n", "'x'", 2},
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,0,0\n0,0,91,0\n", "found 91", 3},

@@ -454,9 +454,24 @@ static bool is_in_plane(const measured_point *p)
     return fabs(p->i[0] * p->r[1] - p->i[1] * p->r[0]) <= IN_PLANE;
 }
 
-static void read_bytes(reader *r, const char *bytes, size_t size)
+/* Refuses a file of hardly any rows. */
+static void check_number(reader *r)
 {
     enum { FEWEST = 3 };
+    const place whole = {r->path, 0, 0};
+    const int n = r->out->n, dropped = r->out->n_dropped;
+    if (n >= FEWEST) return;
+    if (dropped > 0)
+        fail(r, errors_add(r->errors, GLINT_INPUT, whole,
+                           "found %d usable rows (and %d without light); expected at least %d", n,
+                           dropped, FEWEST));
+    else
+        fail(r, errors_add(r->errors, GLINT_INPUT, whole,
+                           "found %d rows of numbers; expected at least %d", n, FEWEST));
+}
+
+static void read_bytes(reader *r, const char *bytes, size_t size)
+{
     const char *nul = memchr(bytes, '\0', size);
     if (nul) {
         fail(r, errors_add(r->errors, GLINT_INPUT, (place){r->path, 0, 0},
@@ -467,15 +482,7 @@ static void read_bytes(reader *r, const char *bytes, size_t size)
     read_lines(r, bytes, size);
     if (r->status) return;
     check_unit(r);
-    if (r->out->n < FEWEST)
-        fail(r,
-             r->out->n_dropped > 0
-                 ? errors_add(r->errors, GLINT_INPUT, (place){r->path, 0, 0},
-                              "found %d usable rows (and %d without light); expected at least "
-                              "%d",
-                              r->out->n, r->out->n_dropped, FEWEST)
-                 : errors_add(r->errors, GLINT_INPUT, (place){r->path, 0, 0},
-                              "found %d rows of numbers; expected at least %d", r->out->n, FEWEST));
+    check_number(r);
     r->out->in_plane = true;
     for (int k = 0; k < r->out->n; k++)
         if (!is_in_plane(&r->out->points[k])) r->out->in_plane = false;

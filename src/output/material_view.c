@@ -3,6 +3,7 @@
 #include "base/angle.h"
 #include "base/constants.h"
 #include "base/csv.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -166,6 +167,28 @@ static glint_status check_unit(const csv_table *table, const int columns[4],
                       cell->text);
 }
 
+/* Says that there is no column of that name, and which may be meant. names: the n that there ought
+ * to be. */
+static glint_status refuse_column(const csv_table *table, const char *name,
+                                  const char *const *names, int n, glint_errors *errors)
+{
+    enum { MOST = 256 };
+    const char *others[MOST]; /* columns that have no use */
+    size_t n_others = 0;
+    for (int c = 0; c < table->n_columns && n_others < MOST; c++) {
+        const char *here = csv_at(table, -1, c)->text;
+        bool used = false;
+        for (int k = 0; k < n; k++)
+            used = used || string_equal(here, names[k]);
+        if (!used) others[n_others++] = here;
+    }
+    const char *near = nearest_name(name, others, n_others);
+    return errors_add(errors, GLINT_INPUT, csv_place(table, csv_at(table, -1, 0)),
+                      "there is no column '%s'%s%.40s%s; expected theta_i_deg, phi_i_deg, "
+                      "theta_r_deg and phi_r_deg",
+                      name, near ? " (is '" : "", near ? near : "", near ? "' meant?)" : "");
+}
+
 static glint_status read_angles(const char *path, bool unit_given, view_points *points,
                                 glint_errors *errors)
 {
@@ -176,11 +199,7 @@ static glint_status read_angles(const char *path, bool unit_given, view_points *
     if (status) return status;
     for (int k = 0; k < 4; k++) {
         columns[k] = csv_column(&table, NAMES[k]);
-        if (columns[k] < 0)
-            status = errors_add(errors, GLINT_INPUT, csv_place(&table, csv_at(&table, -1, 0)),
-                                "there is no column '%s'; expected theta_i_deg, phi_i_deg, "
-                                "theta_r_deg and phi_r_deg",
-                                NAMES[k]);
+        if (columns[k] < 0) status = refuse_column(&table, NAMES[k], NAMES, 4, errors);
     }
     if (!status && table.n_rows == 0)
         status = errors_add(errors, GLINT_INPUT, (place){path, 0, 0},
