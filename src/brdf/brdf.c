@@ -97,6 +97,17 @@ double brdf_material_eval(const brdf_material *material, const double i[3], cons
     return g;
 }
 
+double brdf_material_specular(const brdf_material *material, double ci)
+{
+    double part = 0.0;
+    for (int k = 0; k < material->n_lobes; k++) {
+        const brdf_lobe *lobe = &material->lobes[k];
+        if (lobe->model->specular)
+            part += lobe->weight * lobe->model->specular(brdf_lobe_coef(lobe), ci);
+    }
+    return part;
+}
+
 void brdf_material_tile(const brdf_material *material, const brdf_facets *facets,
                         const brdf_light *light, const double *visible, double sum[BRDF_TILE])
 {
