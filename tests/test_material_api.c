@@ -353,6 +353,47 @@ START_TEST(test_material_of_parts_is_their_weighted_sum)
 }
 END_TEST
 
+static const char MIRROR[] = "[materials.glass]\nbrdf = \"sum\"\nparts = [\n"
+                             "  { weight = 0.5, brdf = \"mirror\", R = 1, n = 1.5 },\n"
+                             "  { brdf = \"lambert\", rho = 0.1 } ]\n";
+
+/* Light that is mirrored is in the reflectance, not in f; 0.04: ((n-1)/(n+1))^2. */
+START_TEST(test_material_that_mirrors_says_how_much)
+{
+    glint_material *glass = read_good(write_file("m.toml", MIRROR), "glass", NULL);
+    assert_rel(glint_material_mirrored(glass, 0), 0.02, 1e-14);
+    assert_rel(f_of(glass, 30, 0, 30, 180), 0.1 / PI, 1e-14);
+    double dhr;
+    ck_assert_int_eq(glint_material_dhr(glass, 0, 0, &dhr, NULL, NULL), GLINT_OK);
+    assert_rel(dhr, 0.12, 1e-8);
+    const double nowhere[] = {-0.1, PI / 2, 2, NAN, INFINITY};
+    for (size_t k = 0; k < COUNT_OF(nowhere); k++)
+        assert_near(glint_material_mirrored(glass, nowhere[k]), 0, 0);
+    glint_material_free(glass);
+}
+END_TEST
+
+START_TEST(test_material_table_says_what_f_leaves_out)
+{
+    glint_material *glass = read_good(write_file("m.toml", MIRROR), "glass", NULL);
+    const glint_material *const all[] = {glass};
+    static const double THETA_DEG[] = {0};
+    glint_material_view view = {
+        .kind = GLINT_VIEW_PLANE, .theta_i_deg = THETA_DEG, .n_theta_i = 1, .step_deg = 10};
+    for (int dhr = 0; dhr < 2; dhr++) {
+        if (dhr) view.kind = GLINT_VIEW_DHR;
+        glint_errors *errors = glint_errors_new();
+        ck_assert_int_eq(glint_material_table_write(all, 1, &view, "/dev/null", errors), GLINT_OK);
+        ck_assert_uint_eq(glint_errors_count(errors), dhr ? 0 : 1);
+        if (!dhr)
+            ck_assert_ptr_nonnull(strstr(glint_errors_get(errors, 0)->message,
+                                         "'glass' is a perfect mirror for 0.02 of the light"));
+        glint_errors_free(errors);
+    }
+    glint_material_free(glass);
+}
+END_TEST
+
 /* -------------------------------------------------------------------- reading */
 
 static const char BANDS[] = "[materials.paint]\nbrdf = \"lambert\"\nrho = 0.5\n"
@@ -748,6 +789,8 @@ int main(void)
     tcase_add_test(all, test_material_brdf_takes_negative_zenith_angles_for_the_other_side);
     tcase_add_test(all, test_material_angles_that_are_not_finite_are_refused);
     tcase_add_test(all, test_material_of_parts_is_their_weighted_sum);
+    tcase_add_test(all, test_material_that_mirrors_says_how_much);
+    tcase_add_test(all, test_material_table_says_what_f_leaves_out);
     tcase_add_test(all, test_material_of_a_band_has_what_differs_in_it);
     tcase_add_test(all, test_material_far_from_where_it_holds_is_warned_of_in_a_band_alone);
     tcase_add_test(all, test_material_names_come_in_the_order_of_the_files);

@@ -369,6 +369,7 @@ glint_status glint_verify(const char *path, const char *const *overrides, size_t
 typedef struct glint_brdf_param {
     const char *name, *unit, *doc;
     double min, max;      /* may be infinite */
+    bool min_open, max_open; /* that end does not belong to the range */
     double default_value; /* where not required */
     bool required;
     int dimensions; /* 0: a number; 2: rows of numbers, each in the range */
@@ -392,6 +393,8 @@ typedef struct glint_brdf_layout {
     const char *columns;
     bool signed_zenith; /* theta may be negative, which means the opposite azimuth */
     bool radians;       /* angles in rad instead of deg */
+    bool unit_given;    /* deg are meant where radians is false, also if they look like rad: none
+                           from the normal above pi/2 and no azimuth above 2 pi */
     double floor;       /* 1/sr; rows with f at or below it are left out */
 } glint_brdf_layout;
 
@@ -511,9 +514,14 @@ const char *glint_material_model(const glint_material *material);
 glint_status glint_material_brdf(const glint_material *material, double theta_i, double phi_i,
                                  double theta_r, double phi_r, double *f, glint_error *error);
 
+/* The part of the light from an incidence theta_i (rad, 0 <= theta_i < pi/2) that goes into the
+ * mirror direction alone, as off a perfect mirror: it is no part of f, and part of the reflectance.
+ * 0 for other surfaces, and for other angles. */
+double glint_material_mirrored(const glint_material *material, double theta_i);
+
 /* The directional-hemispherical reflectance: the part of the light from one direction that is sent
  * back. theta_i: rad, 0 <= theta_i < pi/2. error_bound: estimate of the absolute error of *dhr,
- * NULL allowed; 1e-8 of it is aimed at. Errors: GLINT_ARGUMENT for theta_i; GLINT_INPUT where so
+ * NULL allowed; 1e-8 of it is aimed at, 1e-5 of measured tables. Errors: GLINT_ARGUMENT for theta_i; GLINT_INPUT where so
  * much could not be reached (*dhr and *error_bound hold what was); GLINT_INTERNAL. */
 glint_status glint_material_dhr(const glint_material *material, double theta_i, double phi_i,
                                 double *dhr, double *error_bound, glint_error *error);

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In the order of the listings: diffuse, lobes, microfacets, scatter, powders, measurements. */
+/* In the order of the listings: diffuse, lobes, microfacets and mirrors, scatter, powders,
+ * measurements. */
 static const brdf_model *const models[] = {
     &brdf_lambert,
     &brdf_oren_nayar,
@@ -21,6 +22,7 @@ static const brdf_model *const models[] = {
     &brdf_cook_torrance,
     &brdf_ggx,
     &brdf_five_parameter,
+    &brdf_mirror,
     &brdf_abg,
     &brdf_binomial,
     &brdf_lommel_seeliger,
@@ -174,6 +176,8 @@ bool glint_brdf_parameter(size_t k, size_t j, glint_brdf_param *out)
                               .doc = p->doc,
                               .min = p->min,
                               .max = p->max,
+                              .min_open = p->flags & PARAM_MIN_OPEN,
+                              .max_open = p->flags & PARAM_MAX_OPEN,
                               .default_value = p->def,
                               .dimensions = p->flags & PARAM_ROWS ? 2 : 0,
                               .required = param_is_required(p)};

@@ -43,7 +43,8 @@ enum {
     BRDF_ISOTROPIC = 1u << 0,      /* does not depend on the tangent */
     BRDF_NOT_RECIPROCAL = 1u << 1, /* f(i,r) != f(r,i), documented in `doc` */
     BRDF_WAVELENGTH = 1u << 2,     /* takes k_per_um and wavelength_um: both or neither */
-    BRDF_MEASURED = 1u << 3        /* takes the rows of a file: table_prepare makes its lobes */
+    BRDF_MEASURED = 1u << 3,       /* takes the rows of a file: table_prepare makes its lobes */
+    BRDF_PASSIVE = 1u << 4         /* reflects at most what it gets, whatever its parameters are */
 };
 
 struct brdf_lobe;

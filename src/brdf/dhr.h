@@ -5,7 +5,8 @@
 
 #include "brdf/brdf.h"
 
-/* The integral of f cr over the hemisphere of directions to the observer, a pure number.
+/* The integral of f cr over the hemisphere of directions to the observer, mirrors included, a pure
+ * number.
  *
  * theta_i: zenith angle of the source, rad, 0 <= theta_i < pi/2; phi_i: its azimuth from the
  * tangent towards the bitangent, rad. relative_tolerance: wanted of the result; below 1e-12 as

@@ -81,7 +81,14 @@ static glint_status read_term(const char *s, size_t n, fit_form *form, glint_err
     if (!model) return refuse_name(name, error);
     if (model->prepare_lobe)
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
-                         "'%s' cannot be fitted: it takes more than single numbers", name);
+                         "'%s' cannot be fitted: it takes more than single numbers; 'glint brdf "
+                         "list' shows the models",
+                         name);
+    if (model->specular)
+        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                         "'%s' cannot be fitted: f is a delta function, which no measurement has; "
+                         "fit a narrow lobe such as ward-gmd",
+                         name);
     if (form->n_lobes + count > FIT_MAX_LOBES)
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE, "the sum has more than %d lobes",
                          FIT_MAX_LOBES);

@@ -186,6 +186,8 @@ static void report_peaks(const show *s)
         for (size_t m = 0; m < s->n; m++) {
             double theta_r, f;
             fprintf(stderr, "%s %s ", m ? ";" : "", s->labels[m]);
+            const double mirrored = glint_material_mirrored(s->materials[m], theta_i_deg / DEG);
+            if (mirrored > 0) fprintf(stderr, "mirrors %.4g; else ", mirrored);
             if (!glint_material_peak(s->materials[m], theta_i_deg / DEG, s->view.phi_i_deg / DEG,
                                      &theta_r, &f)) {
                 fprintf(stderr, "none");

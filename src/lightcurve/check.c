@@ -127,6 +127,17 @@ static void report_reflectance(const brdf_material *material, text *t)
     text_char(t, '\n');
 }
 
+/* What of it a mirror sends into one direction. */
+static void report_mirror(const brdf_material *material, text *t)
+{
+    const double part[3] = {brdf_material_specular(material, 1.0),
+                            brdf_material_specular(material, cos(30 * DEG)),
+                            brdf_material_specular(material, cos(60 * DEG))};
+    if (part[0] > 0)
+        text_printf(t, "              of that %.3f, %.3f, %.3f into the mirror direction alone\n",
+                    part[0], part[1], part[2]);
+}
+
 static void report_materials(const glint_scenario *s, text *t)
 {
     const satellite *sat = &s->satellite;
@@ -147,6 +158,7 @@ static void report_materials(const glint_scenario *s, text *t)
             text_char(t, '\n');
             report_tables(&sat->materials[m].bands[b], t);
             report_reflectance(&sat->materials[m].bands[b], t);
+            report_mirror(&sat->materials[m].bands[b], t);
         }
     }
 }
@@ -218,6 +230,7 @@ static glint_status describe_material(const char *path, const char *name, text *
     text_printf(t, "\n            %s\n", glint_material_model(material));
     report_tables(material_function(material), t);
     report_reflectance(material_function(material), t);
+    report_mirror(material_function(material), t);
     glint_material_free(material);
     return GLINT_OK;
 }

@@ -170,6 +170,21 @@ static glint_status write_all(const glint_material *const *materials, size_t n,
     return status;
 }
 
+/* Says what f leaves out. */
+static void warn_of_mirrors(const glint_material *const *materials, size_t n,
+                            const glint_material_view *view, glint_errors *errors)
+{
+    if (view->kind == GLINT_VIEW_DHR) return;
+    for (size_t k = 0; k < n; k++) {
+        const double part = glint_material_mirrored(materials[k], 0);
+        if (part > 0)
+            errors_warn(errors, PLACE_NONE,
+                        "'%s' is a perfect mirror for %.4g of the light at normal incidence: that "
+                        "goes into one direction alone and is not in f; --dhr counts it",
+                        view_label(view, materials, k), part);
+    }
+}
+
 glint_status glint_material_table_write(const glint_material *const *materials, size_t n,
                                         const glint_material_view *view, const char *path,
                                         glint_errors *errors)
@@ -177,6 +192,7 @@ glint_status glint_material_table_write(const glint_material *const *materials, 
     view_points points;
     glint_status status = view_points_make(view, &points, errors);
     if (status) return status;
+    warn_of_mirrors(materials, n, view, errors);
     out_file *file;
     glint_error error;
     status = out_file_open(path, &file, &error);

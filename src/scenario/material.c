@@ -190,6 +190,7 @@ static void read_alone(reading *rd, const toml_node *table, glint_material *out)
     }
     sat->n_materials = 1;
     read_material(rd, table, &sat->materials[0]);
+    measured_cache_free(&rd->tables);
     if (rd->status) return;
     warn_of_materials(rd);
     describe(&sat->materials[0].bands[0], &out->model);
@@ -300,15 +301,27 @@ glint_status glint_material_brdf(const glint_material *material, double theta_i,
     return GLINT_OK;
 }
 
+double glint_material_mirrored(const glint_material *material, double theta_i)
+{
+    const double ci = cos(theta_i);
+    if (!(theta_i >= 0.0 && ci > BRDF_EDGE)) return 0.0;
+    return brdf_material_specular(&inside(material)->bands[0], ci);
+}
+
 glint_status glint_material_dhr(const glint_material *material, double theta_i, double phi_i,
                                 double *dhr, double *error_bound, glint_error *error)
 {
-    static const double TOLERANCE = 1e-8; /* relative */
+    /* relative; measured values are good to a percent, and their table is dear and not smooth */
+    static const double TOLERANCE = 1e-8, OF_MEASURED = 1e-5;
     if (!isfinite(theta_i) || !isfinite(phi_i))
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
                          "an angle is not finite; expected two angles in rad");
-    return brdf_dhr(&inside(material)->bands[0], theta_i, phi_i, TOLERANCE, dhr, error_bound,
-                    error);
+    const brdf_material *function = &inside(material)->bands[0];
+    bool is_measured = false;
+    for (int k = 0; k < function->n_lobes; k++)
+        is_measured = is_measured || function->lobes[k].model->flags & BRDF_MEASURED;
+    return brdf_dhr(function, theta_i, phi_i, is_measured ? OF_MEASURED : TOLERANCE, dhr,
+                    error_bound, error);
 }
 
 bool glint_material_peak(const glint_material *material, double theta_i, double phi_i,

@@ -1,6 +1,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "scenario/read_material.h"
 #include "scenario/reading.h"
 
 #include <math.h>
@@ -460,6 +461,7 @@ static void read_all(reading *rd, toml_document *document)
     read_output(rd, &root);
     s->has_satellite = !rd->orbit_only || names_satellite(&root);
     if (s->has_satellite) read_satellite(rd, &root);
+    if (rd->status == GLINT_OK) refuse_mirrors(rd);
     s->needs_moon = !s->has_geometry && rd->status == GLINT_OK && wants_moon(s);
     read_expectations(rd, &root);
     reader_refuse(&root, "observed", "comparing with an observed track comes later");
@@ -514,7 +516,10 @@ static glint_status read_scenario(const char *path, const char *const *overrides
                                   size_t n_overrides, bool orbit_only, glint_scenario **out,
                                   glint_errors *errors)
 {
-    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK, orbit_only};
+    reading rd = {.overrides = overrides,
+                  .n_overrides = n_overrides,
+                  .errors = errors,
+                  .orbit_only = orbit_only};
     const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;
@@ -548,7 +553,7 @@ glint_status glint_scenario_read_orbit(const char *path, const char *const *over
 glint_status scenario_read_model(const char *path, const char *const *overrides, size_t n_overrides,
                                  glint_scenario **out, glint_errors *errors)
 {
-    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK, false};
+    reading rd = {.overrides = overrides, .n_overrides = n_overrides, .errors = errors};
     const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;

@@ -2,6 +2,7 @@
 #ifndef GLINT_SCENARIO_READING_H
 #define GLINT_SCENARIO_READING_H
 
+#include "scenario/read_measured.h"
 #include "scenario/reader.h"
 #include "scenario/scenario.h"
 
@@ -11,8 +12,9 @@ typedef struct reading {
     const char *const *overrides; /* borrowed */
     size_t n_overrides;
     glint_errors *errors;
-    glint_status status; /* the worst so far */
-    bool orbit_only;     /* [attitude] and the satellite may be absent */
+    glint_status status;   /* the worst so far */
+    bool orbit_only;       /* [attitude] and the satellite may be absent */
+    measured_cache tables; /* files of measured BRDFs; ended where the materials end */
 } reading;
 
 /* Keeps the worst of the statuses. */
