@@ -249,7 +249,7 @@ static double disc_reach(const curved_tile *t, int lane)
 {
     if (!t->disc) return 0.0;
     const double narrowest = fmin(t->lobe->width[0], t->lobe->width[1]);
-    return 1.1 * t->disc->radius[lane] / (t->light->hlen[lane] * narrowest);
+    return 1.3 * t->disc->radius[lane] / (t->light->hlen[lane] * narrowest);
 }
 
 void curved_tile_start(curved_tile *t)
@@ -264,12 +264,12 @@ void curved_tile_start(curved_tile *t)
 
 /* A perfect mirror that is curved both ways shows an image of the disc, whose points are counted:
  * those that the piece has the normal for. Near that normal dA of the matter send the light on over
- * 4 dA / (dA / dw) sr. */
-static void add_image(const curved_tile *t, const scene *s, const curved_piece *p)
+ * 4 dA / (dA / dw) sr. e1: the first axis of the disc, the same for all facets, in this frame. */
+static void add_image(const curved_tile *t, const scene *s, const double e1[3],
+                      const curved_piece *p)
 {
-    double x[DISC_POINTS], y[DISC_POINTS], weight[DISC_POINTS], e1[3], e2[3];
+    double x[DISC_POINTS], y[DISC_POINTS], weight[DISC_POINTS], e2[3];
     disc_points(t->disc->limb_darkened, x, y, weight);
-    perp3(s->r, s->i, e1);
     cross3(s->i, e1, e2);
     const double scale = tan(t->disc->radius[s->lane]);
     const double(*c)[2] = p->corner;
@@ -301,11 +301,12 @@ static void add_image(const curved_tile *t, const scene *s, const curved_piece *
  * the disc blurs. */
 static void widen_by_disc(const curved_tile *t, int lane, scene *s)
 {
-    enum { FINENESS = 10 }; /* pieces per radius of the disc */
+    /* Pieces per radius of the disc. The image in a mirror ends sharply, somewhere in a piece. */
+    const double fineness = t->shape->specular ? 200.0 : 10.0;
     const double size = t->disc->radius[lane] / t->light->hlen[lane]; /* rad, of the normal */
     double most = 0.0;
     for (int j = 0; j < 2; j++) {
-        const double wide = fmax(t->lobe->width[j], size / FINENESS);
+        const double wide = fmax(t->lobe->width[j], size / fineness);
         most = fmax(most, size / wide);
         s->width[j] = wide;
         s->narrow[j] = 1.0 / wide;
@@ -325,9 +326,11 @@ static void add_pieces(curved_tile *t, int k, int lane, const double frame[9], d
                               .radius = t->disc ? t->disc->radius[lane] : 0.0,
                               .limb_darkened = t->disc && t->disc->limb_darkened,
                               .lane = lane};
-    double i[3], r[3], h[3];
+    double i[3], r[3], h[3], e1[3], own_e1[3];
     lane_at(t->light->i, lane, i);
     lane_at(t->light->r, lane, r);
+    const int away = smallest3(i);
+    perp3((double[3]){away == 0, away == 1, away == 2}, i, e1);
     for (int p = t->span->first_piece[k]; p < t->span->first_piece[k + 1]; p++) {
         const curved_piece *piece = &t->span->pieces[p];
         const bool is_arc = piece->kind == SURFACE_CONE;
@@ -344,7 +347,8 @@ static void add_pieces(curved_tile *t, int k, int lane, const double frame[9], d
             continue;
         }
         if (t->shape->specular) {
-            if (disc.radius > 0.0) add_image(t, &s, piece);
+            mat_vec(own, e1, own_e1);
+            if (disc.radius > 0.0) add_image(t, &s, own_e1, piece);
             continue;
         }
         add3(s.i, s.r, h);

@@ -395,10 +395,9 @@ void disc_push(batch *b, const disc_sample *sample, const double i[3], const dou
         push_narrow(&s);
     else if (s.i[2] < s.scale * s.e1[2])
         push_risen(&s);
-    else if (z > Z_RING || (z > 0.0 && size > SIZE_RING))
+    else if (z > Z_RING || (z > 0.0 && size > SIZE_RING) || is_opposite(&s))
         push_polar(&s);
-    else if (z > Z_CROSS || (z > 0.0 && size > SIZE_CROSS) || s.i[2] < LOW * s.scale ||
-             is_opposite(&s))
+    else if (z > Z_CROSS || (z > 0.0 && size > SIZE_CROSS) || s.i[2] < LOW * s.scale)
         push_ring(&s);
     else if (z > Z_POINT)
         push_cross(&s);
