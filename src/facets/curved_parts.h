@@ -16,7 +16,7 @@
 
 /* In place of the width of a lobe that has none, rad: the image of the Sun in a cylinder that is a
  * perfect mirror is found with pieces of 1.6 of these. */
-#define CURVED_MIRROR_WIDTH 2e-5
+#define CURVED_MIRROR_WIDTH 5e-5
 
 /* A tile's light as seen from the facets: a cone about the bisectors. */
 typedef struct curved_spread {

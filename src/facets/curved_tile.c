@@ -14,6 +14,7 @@ typedef struct scene {
     double i[3], r[3];          /* in the frame of the piece: t, b, n */
     double width[2], narrow[2]; /* of the lobe, rad, and 1 / that */
     double reach;               /* of the lobe, in widths */
+    double blur;                /* how far the disc moves the highlight, in widths */
     double highlight[2];        /* slopes of the bisector; of triangles only */
     double part;                /* of the facet that is lit and seen */
     const disc_sample *disc;    /* NULL: the source is a point */
@@ -29,7 +30,7 @@ static bool is_fine(const scene *s, double extent2, double distance2)
 {
     if (extent2 <= CURVED_FINE * CURVED_FINE) return true;
     const double extent = sqrt(extent2), wing = CURVED_NEAR + extent / CURVED_FAR;
-    const double past = s->reach + extent, enough = wing < past ? wing : past;
+    const double past = s->reach + extent, enough = (wing < past ? wing : past) + s->blur;
     return distance2 >= enough * enough;
 }
 
@@ -311,7 +312,7 @@ static void widen_by_disc(const curved_tile *t, int lane, scene *s)
         s->width[j] = wide;
         s->narrow[j] = 1.0 / wide;
     }
-    s->reach += 1.5 * most;
+    s->blur = 1.5 * most;
 }
 
 static void add_pieces(curved_tile *t, int k, int lane, const double frame[9], double part)
