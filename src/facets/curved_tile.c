@@ -269,17 +269,17 @@ void curved_tile_start(curved_tile *t)
 static void add_image(const curved_tile *t, const scene *s, const double e1[3],
                       const curved_piece *p)
 {
-    double x[DISC_POINTS], y[DISC_POINTS], weight[DISC_POINTS], e2[3];
-    disc_points(t->disc->limb_darkened, x, y, weight);
+    const disc_rule *points = &t->disc->rules[DISC_FOUR];
+    double e2[3];
     cross3(s->i, e1, e2);
     const double scale = tan(t->disc->radius[s->lane]);
     const double(*c)[2] = p->corner;
     const double whole =
         (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
-    for (int k = 0; k < DISC_POINTS; k++) {
+    for (int k = 0; k < points->n; k++) {
         double i[3], h[3];
         for (int j = 0; j < 3; j++)
-            i[j] = s->i[j] + scale * (x[k] * e1[j] + y[k] * e2[j]);
+            i[j] = s->i[j] + scale * (points->x[k] * e1[j] + points->y[k] * e2[j]);
         unit3(i, i);
         add3(i, s->r, h);
         if (!(h[2] > 0.0)) continue;
@@ -293,7 +293,7 @@ static void add_image(const curved_tile *t, const scene *s, const double e1[3],
         const double q = 1.0 + at[0] * at[0] + at[1] * at[1];
         const double spread = p->area_m2 / (0.5 * fabs(whole)) * density_at(p, at[0], at[1]) * q *
                               sqrt(q); /* dA / dw, m^2/sr */
-        s->batch->sum[s->lane] += s->part * weight[k] * 0.25 * spread *
+        s->batch->sum[s->lane] += s->part * points->weight[k] * 0.25 * spread *
                                   brdf_material_specular(s->batch->material, 0.5 * norm3(h));
     }
 }
@@ -323,10 +323,8 @@ static void add_pieces(curved_tile *t, int k, int lane, const double frame[9], d
                .narrow = {1.0 / t->lobe->width[0], 1.0 / t->lobe->width[1]},
                .reach = reach_of(t, lane),
                .part = part};
-    const disc_sample disc = {.shape = t->shape,
-                              .radius = t->disc ? t->disc->radius[lane] : 0.0,
-                              .limb_darkened = t->disc && t->disc->limb_darkened,
-                              .lane = lane};
+    const double radius = t->disc ? t->disc->radius[lane] : 0.0;
+    const disc_sample disc = {.shape = t->shape, .disc = t->disc, .lane = lane};
     double i[3], r[3], h[3], e1[3], own_e1[3];
     lane_at(t->light->i, lane, i);
     lane_at(t->light->r, lane, r);
@@ -340,7 +338,7 @@ static void add_pieces(curved_tile *t, int k, int lane, const double frame[9], d
         mat_vec(own, r, s.r);
         if (is_arc) {
             scene arc = s;
-            if (disc.radius > 0.0) {
+            if (radius > 0.0) {
                 arc.disc = &disc;
                 widen_by_disc(t, lane, &arc);
             }
@@ -349,7 +347,7 @@ static void add_pieces(curved_tile *t, int k, int lane, const double frame[9], d
         }
         if (t->shape->specular) {
             mat_vec(own, e1, own_e1);
-            if (disc.radius > 0.0) add_image(t, &s, own_e1, piece);
+            if (radius > 0.0) add_image(t, &s, own_e1, piece);
             continue;
         }
         add3(s.i, s.r, h);

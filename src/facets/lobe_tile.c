@@ -40,10 +40,7 @@ static void add_blurred(lobe_run *run, int k, uint32_t lanes, double left[BRDF_T
         const double part = left[lane];
         left[lane] = 0.0;
         if (!(part > 0.0)) continue;
-        const disc_sample sample = {.shape = t->shape,
-                                    .radius = t->disc->radius[lane],
-                                    .limb_darkened = t->disc->limb_darkened,
-                                    .lane = lane};
+        const disc_sample sample = {.shape = t->shape, .disc = t->disc, .lane = lane};
         double i[3], r[3];
         const double light_i[3] = {t->light->i[0][lane], t->light->i[1][lane],
                                    t->light->i[2][lane]};

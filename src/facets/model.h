@@ -24,11 +24,35 @@ struct lobe_shape;
  * the angle at which its surface is left. u at 550 nm: 0.6 (physics page, section 4). */
 #define LIMB_DARKENING 0.6
 
+/* Points in the disc, in units of its radius, and weights that add to 1: rules from cheap to fine.
+ */
+typedef enum disc_rule_kind {
+    DISC_CENTRE,
+    DISC_CROSS,
+    DISC_RING,
+    DISC_TWO,
+    DISC_THREE,
+    DISC_FOUR,
+    DISC_RULES
+} disc_rule_kind;
+
+enum { DISC_POINTS = 64 };
+
+typedef struct disc_rule {
+    int n;
+    double x[DISC_POINTS], y[DISC_POINTS], weight[DISC_POINTS];
+} disc_rule;
+
 /* A source that is a disc, in each lane of a tile. */
 typedef struct source_disc {
     bool limb_darkened;
-    double radius[BRDF_TILE]; /* angular, rad, 0 to 0.1; 0: a point */
+    disc_rule rules[DISC_RULES];
+    double radius[BRDF_TILE], scale[BRDF_TILE]; /* angular, rad, and its tangent; 0: a point */
 } source_disc;
+
+/* Fills all but the radii, which source_disc_set does, lane by lane: 0 to 0.1 rad. */
+void source_disc_start(source_disc *disc, bool limb_darkened);
+void source_disc_set(source_disc *disc, int lane, double radius);
 
 /* Facets of one material in one component. */
 typedef struct model_span {

@@ -9,22 +9,26 @@
 #include <stdint.h>
 
 /* How far a point Sun is off is a matter of z, the change of the lobe's logarithm from the middle
- * of the disc to its rim: the mean of exp(z x) over a uniform disc is 1 + z^2/8 + ... Up to these
- * the next cheaper rule stays within 5e-4 (half a millimagnitude) of the mean. */
-#define Z_POINT 0.06
-#define Z_CROSS 0.5
-#define Z_RING 1.2
-#define Z_POLAR 4.0
-/* And of how large the disc is against the lobe, which counts at the lobe's top: in widths. */
-#define SIZE_CROSS 0.35
-#define SIZE_RING 0.7
-#define SIZE_POLAR 2.0
+ * of the disc to its rim: the mean of exp(z x) over a uniform disc is 1 + z^2/8, and of exp(-z^2
+ * x^2/2) 1 - z^2/4 Up to this the middle alone is within 5e-4 (half a millimagnitude) of the mean,
+ * as is every rule within its limits. */
+#define Z_POINT 0.045
 /* The logarithm of lobes that fall off as a power of the angle changes by no more per width. */
 #define WING_POWER 3.0
 /* Nearer to the horizon than this, in radii of the disc, g may follow the root of the cosine. */
 #define LOW 6.0
 /* And so near to opposition, in radii of the disc, powders have cusps. */
 #define OPPOSITION 8.0
+
+/* Whether f changes at once when the two directions, 50 deg from the normal, part by 1 deg. */
+static bool has_surge(const brdf_lobe *lobe)
+{
+    static const double CHANGE = 0.02;
+    const double away = sin(50 * DEG), up = cos(50 * DEG), apart = 1 * DEG;
+    const double i[3] = {away, 0.0, up}, r[3] = {away * cos(apart), away * sin(apart), up};
+    const double together = lobe->model->eval(brdf_lobe_coef(lobe), i, i);
+    return fabs(lobe->model->eval(brdf_lobe_coef(lobe), i, r) - together) > CHANGE * together;
+}
 
 void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
 {
@@ -40,6 +44,7 @@ void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
         out->reach = fmax(out->reach, sharpness.reach[j] / out->width[j]);
     }
     out->narrow = 1.0 / fmin(out->width[0], out->width[1]);
+    out->surge = has_surge(lobe);
 }
 
 /* --- the disc's own moments --- */
@@ -73,22 +78,59 @@ static const double GAUSS5[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 
 static const double WEIGHT5[5] = {0.1184634425280945, 0.2393143352496832, 0.2844444444444444,
                                   0.2393143352496832, 0.1184634425280945};
 
-void disc_points(bool limb_darkened, double x[DISC_POINTS], double y[DISC_POINTS],
-                 double weight[DISC_POINTS])
+/* Gauss's two and three points on 0..1 and their weights. */
+static const double GAUSS2[2] = {0.21132486540518713, 0.7886751345948129};
+static const double WEIGHT2[2] = {0.5, 0.5};
+static const double GAUSS3[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
+static const double WEIGHT3[3] = {0.2777777777777778, 0.4444444444444444, 0.2777777777777778};
+
+/* Adds a ring of points to a rule, at s = radius^2, turned by a part of their spacing. */
+static void add_ring(disc_rule *rule, double s, double weight, int n, double turned)
 {
-    enum { SPOKES = DISC_POINTS / 4 };
-    double whole = 0.0;
-    for (int ring = 0; ring < 4; ring++)
-        whole += WEIGHT4[ring] * brightness_at(limb_darkened, GAUSS4[ring]);
-    for (int k = 0; k < DISC_POINTS; k++) {
-        const int ring = k / SPOKES;
-        const double radius = sqrt(GAUSS4[ring]);
-        /* Turned a little, so that no spoke runs along the edge of a facet of a symmetric body. */
-        const double angle = TWO_PI * (k % SPOKES + 0.5 * (ring % 2) + 0.3) / SPOKES;
-        x[k] = radius * cos(angle);
-        y[k] = radius * sin(angle);
-        weight[k] = WEIGHT4[ring] * brightness_at(limb_darkened, GAUSS4[ring]) / (whole * SPOKES);
+    const double radius = sqrt(s);
+    for (int k = 0; k < n; k++) {
+        const double angle = TWO_PI * (k + turned) / n;
+        rule->x[rule->n] = radius * cos(angle);
+        rule->y[rule->n] = radius * sin(angle);
+        rule->weight[rule->n++] = weight / n;
     }
+}
+
+/* Rings at Gauss's points in s, which stand for equal areas; their weights add to 1. */
+static void add_rings(disc_rule *rule, bool limb_darkened, int n, const double *s,
+                      const double *weight, int spokes)
+{
+    double whole = 0.0;
+    for (int k = 0; k < n; k++)
+        whole += weight[k] * brightness_at(limb_darkened, s[k]);
+    /* Turned a little, so that no spoke runs along the edge of a facet of a symmetric body. */
+    for (int k = 0; k < n; k++)
+        add_ring(rule, s[k], weight[k] * brightness_at(limb_darkened, s[k]) / whole, spokes,
+                 0.3 + 0.5 * (k % 2));
+}
+
+void source_disc_start(source_disc *disc, bool limb_darkened)
+{
+    double s, s2;
+    disc->limb_darkened = limb_darkened;
+    disc_moments(limb_darkened, &s, &s2);
+    for (int k = 0; k < DISC_RULES; k++)
+        disc->rules[k].n = 0;
+    disc_rule *rule = disc->rules;
+    add_ring(&rule[DISC_CENTRE], 0.0, 1.0, 1, 0.0);
+    /* Right for polynomials of degree 3, 5 and 7; then 9 and 15 but for the limb. */
+    add_ring(&rule[DISC_CROSS], s, 1.0, 4, 0.0);
+    add_ring(&rule[DISC_RING], 0.0, 1.0 - s * s / s2, 1, 0.0);
+    add_ring(&rule[DISC_RING], s2 / s, s * s / s2, 6, 0.0);
+    add_rings(&rule[DISC_TWO], limb_darkened, 2, GAUSS2, WEIGHT2, 8);
+    add_rings(&rule[DISC_THREE], limb_darkened, 3, GAUSS3, WEIGHT3, 10);
+    add_rings(&rule[DISC_FOUR], limb_darkened, 4, GAUSS4, WEIGHT4, 16);
+}
+
+void source_disc_set(source_disc *disc, int lane, double radius)
+{
+    disc->radius[lane] = radius;
+    disc->scale[lane] = tan(radius);
 }
 
 /* --- one sample --- */
@@ -98,6 +140,7 @@ void disc_points(bool limb_darkened, double x[DISC_POINTS], double y[DISC_POINTS
 typedef struct scene {
     batch *batch;
     const disc_sample *sample;
+    const source_disc *disc; /* the sample's */
     double i[3], r[3], e1[3], e2[3];
     double scale; /* tangent of the disc's radius */
     double area_m2;
@@ -115,9 +158,9 @@ static void look_at(scene *s, const double i[3], const double r[3])
 
 static void point_at(const scene *s, double x, double y, double out[3])
 {
+    const double a = s->scale * x, b = s->scale * y, c = 1.0 / sqrt(1.0 + a * a + b * b);
     for (int j = 0; j < 3; j++)
-        out[j] = s->i[j] + s->scale * (x * s->e1[j] + y * s->e2[j]);
-    unit3(out, out);
+        out[j] = c * (s->i[j] + a * s->e1[j] + b * s->e2[j]);
 }
 
 static void push_point(const scene *s, double x, double y, double weight)
@@ -154,50 +197,36 @@ typedef struct ellipse {
     double along[2], size[2];
 } ellipse;
 
+/* turn^T turn = [mean + a, b; b, mean - a], whose eigenvalues are mean +- sqrt(a^2 + b^2). */
+static void square_of(const lean *l, double *mean, double *a, double *b)
+{
+    const double(*t)[2] = l->turn;
+    const double xx = t[0][0] * t[0][0] + t[1][0] * t[1][0];
+    const double yy = t[0][1] * t[0][1] + t[1][1] * t[1][1];
+    *mean = 0.5 * (xx + yy);
+    *a = 0.5 * (xx - yy);
+    *b = t[0][0] * t[0][1] + t[1][0] * t[1][1];
+}
+
+static double largest_size(const lean *l)
+{
+    double mean, a, b;
+    square_of(l, &mean, &a, &b);
+    return sqrt(mean + sqrt(a * a + b * b));
+}
+
 static ellipse ellipse_of(const lean *l)
 {
-    const double(*a)[2] = l->turn;
-    const double xx = a[0][0] * a[0][0] + a[1][0] * a[1][0];
-    const double yy = a[0][1] * a[0][1] + a[1][1] * a[1][1];
-    const double xy = a[0][0] * a[0][1] + a[1][0] * a[1][1];
-    const double mean = 0.5 * (xx + yy), half = hypot(0.5 * (xx - yy), xy);
-    const double angle = 0.5 * atan2(2.0 * xy, xx - yy);
+    double mean, a, b;
+    square_of(l, &mean, &a, &b);
+    const double half = sqrt(a * a + b * b), angle = 0.5 * atan2(b, a);
     return (ellipse){{cos(angle), sin(angle)}, {sqrt(mean + half), sqrt(fmax(mean - half, 0.0))}};
 }
 
-/* --- rules for what is smooth over the disc --- */
-
-static void push_cross(const scene *s)
+static void push_rule(const scene *s, const disc_rule *rule)
 {
-    double m1, m2;
-    disc_moments(s->sample->limb_darkened, &m1, &m2);
-    const double radius = sqrt(m1); /* right for polynomials of degree 3 */
-    push_point(s, radius, 0.0, 0.25);
-    push_point(s, -radius, 0.0, 0.25);
-    push_point(s, 0.0, radius, 0.25);
-    push_point(s, 0.0, -radius, 0.25);
-}
-
-/* The middle and six on a ring: right for polynomials of degree 5. */
-static void push_ring(const scene *s)
-{
-    static const double ROOT = 0.8660254037844386; /* sqrt(3) / 2 */
-    static const double X[6] = {1.0, 0.5, -0.5, -1.0, -0.5, 0.5};
-    static const double Y[6] = {0.0, ROOT, ROOT, 0.0, -ROOT, -ROOT};
-    double m1, m2;
-    disc_moments(s->sample->limb_darkened, &m1, &m2);
-    const double radius = sqrt(m2 / m1), weight = m1 * m1 / m2;
-    push_point(s, 0.0, 0.0, 1.0 - weight);
-    for (int k = 0; k < 6; k++)
-        push_point(s, radius * X[k], radius * Y[k], weight / 6.0);
-}
-
-static void push_polar(const scene *s)
-{
-    double x[DISC_POINTS], y[DISC_POINTS], weight[DISC_POINTS];
-    disc_points(s->sample->limb_darkened, x, y, weight);
-    for (int k = 0; k < DISC_POINTS; k++)
-        push_point(s, x[k], y[k], weight[k]);
+    for (int k = 0; k < rule->n; k++)
+        push_point(s, rule->x[k], rule->y[k], rule->weight[k]);
 }
 
 /* --- the rule for a narrow lobe, or a part of the disc --- */
@@ -280,7 +309,7 @@ static void push_line(const scene *s, const patch *p, double psi, double weight)
     fill_rule(&line, c, &points);
     for (int k = 0; k < points.n; k++) {
         const double y = c * sin(points.angle[k]);
-        const double bright = brightness_at(s->sample->limb_darkened, x * x + y * y);
+        const double bright = brightness_at(s->disc->limb_darkened, x * x + y * y);
         push_point(s, x * p->along[0] - y * p->along[1], x * p->along[1] + y * p->along[0],
                    weight * points.weight[k] * c * cos(points.angle[k]) * bright);
     }
@@ -329,7 +358,7 @@ static void push_narrow(const scene *s)
     double top[2];
     ellipse shape;
     if (!find_top(s, top, &shape)) {
-        push_polar(s);
+        push_rule(s, &s->disc->rules[DISC_FOUR]);
         return;
     }
     const patch p = {.along = {shape.along[0], shape.along[1]},
@@ -351,8 +380,8 @@ static void push_mirror(const scene *s)
     const double across[3] = {i[1] * z - i[2] * y, i[2] * x - i[0] * z, i[0] * y - i[1] * x};
     const double distance = norm3(across) / (along * s->scale); /* in radii */
     if (!(along > 0.0 && distance <= 1.0)) return;
-    const double sine = sin(s->sample->radius);
-    const double bright = brightness_at(s->sample->limb_darkened, distance * distance);
+    const double sine = sin(s->disc->radius[s->sample->lane]);
+    const double bright = brightness_at(s->disc->limb_darkened, distance * distance);
     s->batch->sum[s->sample->lane] += s->area_m2 *
                                       brdf_material_specular(s->batch->material, r[2]) * r[2] *
                                       bright / (PI * sine * sine);
@@ -365,9 +394,26 @@ static double change_of(double size, double distance, double reach)
     return size * (reach < HUGE_VAL ? 1.0 + distance : fmin(1.0 + distance, WING_POWER));
 }
 
-static bool is_opposite(const scene *s)
+/* The cheapest rule that will do; DISC_RULES: none of them does. z: the change; size: of the disc,
+ * in widths of the lobe. */
+static disc_rule_kind rule_for(double z, double size)
+{
+    static const struct {
+        disc_rule_kind rule;
+        double most_z, most_size;
+    } LIMITS[] = {{DISC_CENTRE, Z_POINT, Z_POINT}, {DISC_CROSS, 0.5, 0.35},
+                  {DISC_RING, 1.2, 0.7},           {DISC_TWO, 2.0, 1.0},
+                  {DISC_THREE, 3.0, 1.5},          {DISC_FOUR, 4.0, 2.0}};
+    for (int k = 0; k < DISC_RULES; k++)
+        if (z <= LIMITS[k].most_z && size <= LIMITS[k].most_size) return LIMITS[k].rule;
+    return DISC_RULES;
+}
+
+/* Powders have cusps at opposition. */
+static bool is_at_surge(const scene *s)
 {
     double apart[3];
+    if (!s->sample->shape->surge) return false;
     sub3(s->i, s->r, apart);
     return norm3(apart) < OPPOSITION * s->scale;
 }
@@ -375,7 +421,11 @@ static bool is_opposite(const scene *s)
 void disc_push(batch *b, const disc_sample *sample, const double i[3], const double r[3],
                double area_m2)
 {
-    scene s = {.batch = b, .sample = sample, .scale = tan(sample->radius), .area_m2 = area_m2};
+    scene s = {.batch = b,
+               .sample = sample,
+               .disc = sample->disc,
+               .scale = sample->disc->scale[sample->lane],
+               .area_m2 = area_m2};
     if (!(r[2] > BRDF_EDGE)) return;
     look_at(&s, i, r);
     if (sample->shape->specular) {
@@ -385,24 +435,21 @@ void disc_push(batch *b, const disc_sample *sample, const double i[3], const dou
     if (s.i[2] <= -s.scale * s.e1[2]) return; /* all of it has set */
     lean l;
     const bool has_lean = lean_at(&s, 0.0, 0.0, &l);
-    const double size = has_lean ? ellipse_of(&l).size[0] : 0.0;
-    const double distance = has_lean ? hypot(l.at[0], l.at[1]) : 0.0;
-    const bool past =
-        distance - size >
-        sample->shape->reach * 2.0 / norm3((double[3]){i[0] + r[0], i[1] + r[1], i[2] + r[2]});
-    const double z = past ? 0.0 : change_of(size, distance, sample->shape->reach);
-    if (z > Z_POLAR || (z > 0.0 && size > SIZE_POLAR))
+    const double size = has_lean ? largest_size(&l) : 0.0;
+    const double distance = has_lean ? sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]) : 0.0;
+    double h[3];
+    add3(i, r, h);
+    const bool past = (distance - size) * norm3(h) > 2.0 * sample->shape->reach;
+    disc_rule_kind which =
+        past ? DISC_CENTRE : rule_for(change_of(size, distance, sample->shape->reach), size);
+    if (s.i[2] < LOW * s.scale && which < DISC_RING) which = DISC_RING;
+    if (is_at_surge(&s) && which < DISC_FOUR) which = DISC_FOUR;
+    if (which == DISC_RULES)
         push_narrow(&s);
     else if (s.i[2] < s.scale * s.e1[2])
         push_risen(&s);
-    else if (z > Z_RING || (z > 0.0 && size > SIZE_RING) || is_opposite(&s))
-        push_polar(&s);
-    else if (z > Z_CROSS || (z > 0.0 && size > SIZE_CROSS) || s.i[2] < LOW * s.scale)
-        push_ring(&s);
-    else if (z > Z_POINT)
-        push_cross(&s);
     else
-        push_point(&s, 0.0, 0.0, 1.0);
+        push_rule(&s, &s.disc->rules[which]);
 }
 
 /* --- which lanes --- */
@@ -415,8 +462,8 @@ typedef struct facet_axes {
 /* Lanes in which the facet is lit by some of the disc, and seen: -1. low: of these, the ones in
  * which the disc is near to the horizon or the two directions are near to each other. */
 LANES_CLONES static bool find_lit(const facet_axes *f, const brdf_light *light,
-                                  const source_disc *disc, int64_t lit[BRDF_TILE],
-                                  int64_t low[BRDF_TILE])
+                                  const source_disc *disc, double opposition,
+                                  int64_t lit[BRDF_TILE], int64_t low[BRDF_TILE])
 {
     const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2];
     int64_t any = 0;
@@ -426,7 +473,7 @@ LANES_CLONES static bool find_lit(const facet_axes *f, const brdf_light *light,
         const double cr = n0 * light->r[0][k] + n1 * light->r[1][k] + n2 * light->r[2][k];
         lit[k] = -(int64_t)(q > 0.0) & -(int64_t)(ci > -1.01 * q) & -(int64_t)(cr > BRDF_EDGE);
         low[k] = lit[k] & (-(int64_t)(ci < LOW * 1.01 * q) |
-                           -(int64_t)(light->hh[k] > 4.0 - OPPOSITION * OPPOSITION * q * q));
+                           -(int64_t)(light->hh[k] > 4.0 - opposition * opposition * q * q));
         any |= lit[k];
     }
     return any != 0;
@@ -469,7 +516,7 @@ uint32_t disc_lanes(const lobe_shape *shape, const brdf_facets *facets, int whic
         f.t[j] = facets->tangent[j][which];
         f.b[j] = facets->bitangent[j][which];
     }
-    if (!find_lit(&f, light, disc, lit, wanted)) return 0;
+    if (!find_lit(&f, light, disc, shape->surge ? OPPOSITION : 0.0, lit, wanted)) return 0;
     if (shape->specular || shape->narrow > 1.0 / LOBE_WIDEST)
         find_blurred(shape, &f, light, disc, lit, wanted);
     uint32_t bits = 0;

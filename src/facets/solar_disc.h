@@ -19,6 +19,7 @@ typedef struct lobe_shape {
     double narrow;   /* 1 / the smaller one */
     double reach;    /* past it nothing is left, in widths, at phase angle 0; may be infinite */
     bool specular;   /* all of it in the mirror direction */
+    bool surge;      /* f changes over less than a few degrees of the phase angle */
 } lobe_shape;
 
 /* In place of the width of what has no lobe along one axis, rad. */
@@ -29,9 +30,8 @@ void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out);
 /* One facet, or a piece of one, under the disc in one lane. */
 typedef struct disc_sample {
     const lobe_shape *shape; /* of the batch's only lobe */
-    double radius;           /* of the disc, rad, above 0 */
-    bool limb_darkened;
-    int lane;
+    const source_disc *disc;
+    int lane; /* with a radius above 0 */
 } disc_sample;
 
 /* Adds the mean over the disc of the light of matter of that area, with a pair of directions (i: to
@@ -43,11 +43,5 @@ void disc_push(batch *b, const disc_sample *sample, const double i[3], const dou
 /* Which lanes of a facet need more than the centre of the disc. Returns a bit for each. */
 uint32_t disc_lanes(const lobe_shape *shape, const brdf_facets *facets, int which,
                     const brdf_light *light, const source_disc *disc);
-
-/* Points and weights (summing to 1) that stand for the disc where what is seen of it is smooth, or
- * only counted: in units of its radius. */
-enum { DISC_POINTS = 64 };
-void disc_points(bool limb_darkened, double x[DISC_POINTS], double y[DISC_POINTS],
-                 double weight[DISC_POINTS]);
 
 #endif

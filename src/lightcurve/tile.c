@@ -68,10 +68,10 @@ static glint_status find_visible(const glint_scenario *s, tile_worker *w, glint_
 /* The Sun's disc in every lane; a point in those that nobody asks for. */
 static void fill_disc(const glint_scenario *s, const tile_geometry *tile, source_disc *disc)
 {
-    disc->limb_darkened = s->solar_disc == SOLAR_LIMB_DARKENED;
+    source_disc_start(disc, s->solar_disc == SOLAR_LIMB_DARKENED);
     for (int k = 0; k < TILE; k++) {
         const bool bright = k < tile->n && tile->seen[k] && tile->sun_weight[k] > 0;
-        disc->radius[k] = bright ? tile->sun_radius[k] : 0;
+        source_disc_set(disc, k, bright ? tile->sun_radius[k] : 0);
     }
 }
 
