@@ -287,7 +287,7 @@ typedef struct rule {
 
 static void fill_rule(const panels *line, double c, rule *out)
 {
-    static const double LONGEST = 1.1; /* rad: Gauss's rule gives cosines to 1e-6 */
+    static const double LONGEST = 1.6; /* rad: Gauss's rule gives squared cosines to 1e-5 */
     out->n = 0;
     for (int k = 0; k + 1 < line->n; k++) {
         const double from = asin_within(line->end[k] / c);
