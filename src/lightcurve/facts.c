@@ -230,7 +230,13 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
             ? "none: shadows that parts cast on each other are neglected"
             : "exact: facets shine with the area that is both lit by the Sun and seen by the "
               "observer");
-    add(out, "solar_disc", "point: facets see the Sun's light from the centre of its disc");
+    static const char *const DISCS[] = {
+        [SOLAR_UNIFORM] = "uniform: light is averaged over the Sun's disc, whose own shadows have "
+                          "sharp edges (those of its centre)",
+        [SOLAR_LIMB_DARKENED] = "limb-darkened (linear, u = 0.6): light is averaged over the Sun's "
+                                "disc, whose own shadows have sharp edges (those of its centre)",
+        [SOLAR_POINT] = "point: facets see the Sun's light from the centre of its disc"};
+    add(out, "solar_disc", "%s", DISCS[s->solar_disc]);
     add(out, "earthshine", "none");
     add(out, "not_modelled",
         "interreflection between parts, polarisation, transmission, thermal emission, moonlight, "

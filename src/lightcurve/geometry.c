@@ -208,6 +208,7 @@ static glint_status fill_row(const glint_scenario *s, const frame_grid *grid, un
     out->phase_angle[k] = angle3(m->sun, m->observer);
     out->sunlit[k] = eclipse_sunlit_fraction(m->r_m, m->sun, seen->sun_distance_m, pole);
     const double au = AU_M / seen->sun_distance_m;
+    out->sun_radius[k] = asin(SUN_RADIUS_M / seen->sun_distance_m);
     out->sun_weight[k] = out->sunlit[k] * au * au;
     fill_site(s, seen, k, out);
     if (wanted & GEOMETRY_HEIGHT) {
@@ -236,6 +237,7 @@ static glint_status fill_given_row(const glint_scenario *s, int64_t row, int k,
     out->range_m[k] = s->geometry.range_m[row];
     out->phase_angle[k] = angle3(m.sun, m.observer);
     out->sunlit[k] = out->sun_weight[k] = 1;
+    out->sun_radius[k] = asin(SUN_RADIUS_M / AU_M);
     out->seen[k] = true;
     const glint_status status =
         turn_components(&s->satellite, &m, body, worker->component_gcrs, NULL, error);

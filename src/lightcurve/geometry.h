@@ -17,6 +17,7 @@ typedef struct tile_geometry {
     double range_m[TILE];     /* observer to satellite along the light path */
     double phase_angle[TILE]; /* at the satellite, between Sun and observer */
     double sunlit[TILE];      /* visible fraction of the solar disc */
+    double sun_radius[TILE];  /* angular, of the solar disc */
     double sun_weight[TILE];  /* sunlit x (1 au / distance of the Sun)^2 */
     double azimuth[TILE], elevation[TILE], sun_elevation[TILE]; /* of a site */
     double height_m[TILE]; /* geodetic, of the satellite; only with GEOMETRY_HEIGHT */

@@ -338,18 +338,14 @@ static void refuse_extinction(reader *r)
 
 static void read_photometry(reading *rd, reader *root)
 {
-    static const char *const DISCS[] = {"point", "uniform", "limb-darkened"};
+    static const char *const DISCS[] = {"uniform", "limb-darkened", "point"}; /* as the enum */
     static const toml_node NOTHING = {.type = TOML_TABLE};
     const toml_node *table = reader_table(root, "photometry", false);
     reader r = reader_start(table ? table : &NOTHING, "[photometry]", rd->errors);
     int disc;
     read_bands(rd, &r);
     reader_choice(&r, "solar_disc", DISCS, 3, 0, &disc);
-    if (disc != 0)
-        reader_fail(&r, reader_place(&r, "solar_disc"),
-                    "solar_disc = \"%s\" is not built yet: this version takes the Sun's light from "
-                    "the centre of its disc; expected \"point\"",
-                    DISCS[disc]);
+    rd->s->solar_disc = (solar_disc_choice)disc;
     const toml_node *earthshine = reader_find(&r, "earthshine");
     if (earthshine && (earthshine->type != TOML_BOOLEAN || earthshine->boolean))
         reader_fail(&r, earthshine->where,

@@ -53,6 +53,13 @@ typedef enum orbit_source {
 
 typedef enum self_shadows { SHADOWS_EXACT, SHADOWS_NONE } self_shadows;
 
+/* What the Sun is to the facets; to the Earth's shadow it is a disc in any case. */
+typedef enum solar_disc_choice {
+    SOLAR_UNIFORM,
+    SOLAR_LIMB_DARKENED,
+    SOLAR_POINT
+} solar_disc_choice;
+
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
 enum { SHARES_MATERIAL = 1u, SHARES_COMPONENT = 2u };
@@ -140,6 +147,7 @@ struct glint_scenario {
     const band_info *bands[SCENARIO_MAX_BANDS];
     magnitude_system systems[SCENARIO_MAX_BANDS];
     double sun_magnitude[SCENARIO_MAX_BANDS];
+    solar_disc_choice solar_disc;
     bool has_extinction;
     double extinction[SCENARIO_MAX_BANDS]; /* mag per airmass; 0 without */
 
