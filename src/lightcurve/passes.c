@@ -2,6 +2,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "lightcurve/facts.h"
 #include "lightcurve/pass_parts.h"
 #include "orbit/eclipse.h"
 
@@ -517,8 +518,8 @@ const char *glint_passes_site(const glint_passes *passes)
 const char *glint_passes_satellite(const glint_passes *passes)
 {
     const glint_scenario *s = passes->s;
-    if (s->orbit_source == ORBIT_TLE && s->tle.name[0]) return s->tle.name;
-    return s->title;
+    const char *name = scenario_object(s);
+    return name[0] ? name : s->title;
 }
 
 const char *glint_event_name(glint_event_kind kind)
