@@ -75,6 +75,8 @@ static void describe_table(text *out, const glint_scenario *s, const scenario_or
     else
         text_printf(out, ", %s interpolation of degree %d", table_method_name(first->method),
                     first->degree);
+    text_printf(out, ", good to %.1g m",
+                orbit_table_error_m(table, -reference_s, run_end_s(s) - reference_s));
 }
 
 char *fact_orbit(const glint_scenario *s, const scenario_orbit *o)

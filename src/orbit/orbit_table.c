@@ -221,7 +221,7 @@ static const table_segment *segment_at(const orbit_table *table, double t_s, gli
     size_t lo = 0, hi = table->n;
     while (lo < hi) { /* the first that begins after t_s */
         const size_t middle = lo + (hi - lo) / 2;
-        if (table->segments[middle].from_s > t_s)
+        if (table->segments[middle].from_s > t_s + (middle == 0 ? TABLE_EDGE_S : 0.0))
             hi = middle;
         else
             lo = middle + 1;
@@ -229,7 +229,7 @@ static const table_segment *segment_at(const orbit_table *table, double t_s, gli
     double from_s, to_s;
     orbit_table_span(table, &from_s, &to_s);
     const table_segment *s = lo ? &table->segments[lo - 1] : NULL;
-    if (s && t_s <= s->to_s) return s;
+    if (s && t_s <= s->to_s + TABLE_EDGE_S) return s;
     if (s && lo < table->n)
         outside(table, t_s, "lies in the gap of the table from", s->to_s,
                 table->segments[lo].from_s, error);
@@ -305,12 +305,9 @@ static void interpolate_hermite(const table_node *nodes, int n, double t_s, doub
     }
 }
 
-glint_status orbit_table_state(const orbit_table *table, double t_s, table_frame *frame,
-                               double r_m[3], double v_m_s[3], glint_error *error)
+/* The state from n nodes around t_s. */
+static void interpolate(const table_segment *s, int n, double t_s, double r_m[3], double v_m_s[3])
 {
-    const table_segment *s = segment_at(table, t_s, error);
-    if (!s) return GLINT_INPUT;
-    const int n = nodes_for(s->method, s->degree);
     const table_node *nodes = s->nodes + window_at(s, t_s, (size_t)n);
     for (int i = 0; i < 3; i++)
         r_m[i] = v_m_s[i] = 0.0;
@@ -318,8 +315,46 @@ glint_status orbit_table_state(const orbit_table *table, double t_s, table_frame
         interpolate_hermite(nodes, n, t_s, r_m, v_m_s);
     else
         interpolate_lagrange(nodes, n, s->has_velocity, t_s, r_m, v_m_s);
+}
+
+glint_status orbit_table_state(const orbit_table *table, double t_s, table_frame *frame,
+                               double r_m[3], double v_m_s[3], glint_error *error)
+{
+    const table_segment *s = segment_at(table, t_s, error);
+    if (!s) return GLINT_INPUT;
+    interpolate(s, nodes_for(s->method, s->degree), t_s, r_m, v_m_s);
     *frame = s->frame;
     return GLINT_OK;
+}
+
+/* How far the interpolation moves where one more node on either side is taken, or where there are
+ * no more, one node less. */
+static double doubt_m(const table_segment *s, double t_s)
+{
+    const int n = nodes_for(s->method, s->degree), other = (size_t)n + 2 <= s->n ? n + 2 : n - 1;
+    double r_m[3], other_m[3], unused[3];
+    interpolate(s, n, t_s, r_m, unused);
+    interpolate(s, other, t_s, other_m, unused);
+    sub3(other_m, r_m, r_m);
+    return norm3(r_m);
+}
+
+double orbit_table_error_m(const orbit_table *table, double from_s, double to_s)
+{
+    enum { MOST = 64 }; /* intervals looked at */
+    double worst_m = 0.0;
+    for (size_t k = 0; k < table->n; k++) {
+        const table_segment *s = &table->segments[k];
+        const double lo_s = fmax(from_s, s->from_s), hi_s = fmin(to_s, s->to_s);
+        if (lo_s > hi_s) continue;
+        const size_t first = window_at(s, lo_s, 2), last = window_at(s, hi_s, 2);
+        const size_t step = (last - first) / MOST + 1;
+        for (size_t i = first; i <= last; i += step) {
+            const double off_m = doubt_m(s, 0.5 * (s->nodes[i].t_s + s->nodes[i + 1].t_s));
+            if (off_m > worst_m) worst_m = off_m;
+        }
+    }
+    return worst_m;
 }
 
 const char *table_method_name(table_method method)

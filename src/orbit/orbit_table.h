@@ -16,6 +16,9 @@ typedef enum table_method { TABLE_LINEAR, TABLE_LAGRANGE, TABLE_HERMITE } table_
 /* Highest degree of interpolation that is taken. */
 enum { TABLE_MAX_DEGREE = 31, TABLE_TEXT_SIZE = 64 };
 
+/* s: a table answers so much before its first moment and after its last, since dates are rounded. */
+#define TABLE_EDGE_S 1e-6
+
 /* One state: position (m) and velocity (m/s). In ITRS the velocity is the one against the Earth. */
 typedef struct table_node {
     double t_s; /* TT s from the table's reference */
@@ -78,7 +81,11 @@ void orbit_table_span(const orbit_table *table, double *from_s, double *to_s);
  * a gap, saying in UTC what there is. */
 glint_status orbit_table_state(const orbit_table *table, double t_s, table_frame *frame,
                                double r_m[3], double v_m_s[3], glint_error *error);
-/* Degree of polynomials, for reports: "Hermite, degree 7". */
+/* How far interpolation may be off between from_s and to_s (TT s from the reference), m: the
+ * largest difference, halfway between records, to polynomials of a higher degree (of a lower one
+ * where a segment is too short). At most 64 intervals of a segment are looked at. */
+double orbit_table_error_m(const orbit_table *table, double from_s, double to_s);
+/* "Hermite": for reports. */
 const char *table_method_name(table_method method);
 
 #endif

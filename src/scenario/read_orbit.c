@@ -204,6 +204,19 @@ static double longest_light_time_s(const orbit_table *table)
     return (norm3(first->r_m) + EARTH_RADIUS_M + HIGHEST_SITE_M) / LIGHT_SPEED_M_S;
 }
 
+/* A warning where records are so far apart that interpolation cannot follow the orbit. */
+static void warn_of_wide_steps(reading *rd, place where, const orbit_table *table,
+                               double reference_s)
+{
+    static const double FAR_M = 1000; /* 0.1 deg at a range of 500 km: physics page, section 5 */
+    const double error_m = orbit_table_error_m(table, -reference_s, run_end_s(rd->s) - reference_s);
+    if (error_m > FAR_M)
+        errors_warn(rd->errors, where,
+                    "the records of this table are far apart: interpolation of that degree may be "
+                    "off by %.2g km; get a table with shorter steps",
+                    error_m * 1e-3);
+}
+
 /* The run must lie inside the table, and so must the light that left before it. */
 static void check_span(reading *rd, place where, const scenario_orbit *o)
 {
@@ -217,13 +230,13 @@ static void check_span(reading *rd, place where, const scenario_orbit *o)
     const bool seen = o == &s->orbit && s->light_time;
     const double light_s = seen ? longest_light_time_s(table) : 0;
     glint_status status = GLINT_OK;
-    if (from_s > 0 || to_s < end_s)
+    if (from_s > TABLE_EDGE_S || to_s < end_s - TABLE_EDGE_S)
         status = errors_add(rd->errors, GLINT_INPUT, where,
                             "the table of positions goes from %s to %s UTC, and the run from %s to "
                             "%s UTC; expected a run inside the table",
                             moment_of(s, from_s).utc, moment_of(s, to_s).utc, moment_of(s, 0).utc,
                             moment_of(s, end_s).utc);
-    else if (from_s > -light_s)
+    else if (seen && from_s > -light_s)
         status = errors_add(rd->errors, GLINT_INPUT, where,
                             "the table of positions begins at %s UTC, %.3g s before the run; light "
                             "time asks for up to %.3g s: begin the run that much later than the "
@@ -232,13 +245,14 @@ static void check_span(reading *rd, place where, const scenario_orbit *o)
     for (size_t k = 1; k < table->n && !status; k++) {
         const double gap_s[2] = {reference_s + table->segments[k - 1].to_s,
                                  reference_s + table->segments[k].from_s};
-        if (gap_s[0] < gap_s[1] && gap_s[0] < end_s && gap_s[1] > -light_s)
+        if (gap_s[0] < gap_s[1] && gap_s[0] + TABLE_EDGE_S < end_s && gap_s[1] > -light_s)
             status = errors_add(rd->errors, GLINT_INPUT, where,
                                 "the table of positions has a gap from %s to %s UTC, inside the "
                                 "run; expected a run between gaps",
                                 moment_of(s, gap_s[0]).utc, moment_of(s, gap_s[1]).utc);
     }
     reading_note(rd, status);
+    if (!status) warn_of_wide_steps(rd, where, table, reference_s);
 }
 
 /* -------------------------------------------------------------------- [orbit] */
