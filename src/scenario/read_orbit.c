@@ -241,7 +241,7 @@ static void check_span(reading *rd, place where, const scenario_orbit *o)
                             "the table of positions begins at %s UTC, %.3g s before the run; light "
                             "time asks for up to %.3g s: begin the run that much later than the "
                             "table, or set light_time = false",
-                            moment_of(s, from_s).utc, -from_s, light_s);
+                            moment_of(s, from_s).utc, fmax(-from_s, 0), light_s);
     for (size_t k = 1; k < table->n && !status; k++) {
         const double gap_s[2] = {reference_s + table->segments[k - 1].to_s,
                                  reference_s + table->segments[k].from_s};
