@@ -183,6 +183,32 @@ START_TEST(test_clock_parse_names_what_does_not_exist)
 }
 END_TEST
 
+START_TEST(test_clock_parse_worded_reads_named_months)
+{
+    static const char *const months[] = {"Jan", "feb", "MAR", "Apr", "May", "Jun",
+                                         "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+    static const char *const wrong[] = {"",
+                                        "24 Jul 2025",
+                                        "24 July 2025 00:00:00",
+                                        "24 Foo 2025 00:00:00",
+                                        "32 Jul 2025 00:00:00",
+                                        "24 Jul 2025 25:00:00",
+                                        "24 Jul 2025 00:00:00 UTCG",
+                                        "24 ulA 2025 00:00:00",
+                                        "2025-07-24T00:00:00"};
+    utc_time utc;
+    for (int k = 0; k < 12; k++) {
+        char string[64];
+        snprintf(string, sizeof string, "%d %s 2024 19:10:00.25", k + 1, months[k]);
+        ck_assert_int_eq(utc_parse_worded(string, PLACE_NONE, &utc, NULL), GLINT_OK);
+        assert_utc(&utc, 2024, k + 1, k + 1, 19, 10, 0.25);
+    }
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++)
+        ck_assert_msg(utc_parse_worded(wrong[k], PLACE_NONE, &utc, NULL) == GLINT_INPUT, "'%s'",
+                      wrong[k]);
+}
+END_TEST
+
 START_TEST(test_clock_check_refuses_fields_out_of_range)
 {
     const utc_time good = {2025, 7, 24, 19, 10, 0.0};
@@ -510,6 +536,7 @@ int main(void)
     tcase_add_test(tcase, test_clock_parse_takes_offsets_off);
     tcase_add_test(tcase, test_clock_parse_refuses_other_forms);
     tcase_add_test(tcase, test_clock_parse_names_what_does_not_exist);
+    tcase_add_test(tcase, test_clock_parse_worded_reads_named_months);
     tcase_add_test(tcase, test_clock_check_refuses_fields_out_of_range);
     tcase_add_test(tcase, test_clock_parse_keeps_long_decimals_in_their_second);
     tcase_add_test(tcase, test_clock_time_parse_reads_one_moment_in_all_scales);

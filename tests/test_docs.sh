@@ -262,6 +262,7 @@ $q"
 described '`[time]`' "$iss" "time.$q"
 described '`[observer]`' "$iss" "observer.$q" "observer={satellite={},$q}"
 described '`[orbit]`' "$iss" "orbit.$q" "orbit={tle_lines=[\"\",\"\"],$q}" "orbit={oem=\"\",$q}" \
+    "orbit={stk=\"\",$q}" "orbit={sp3=\"\",$q}" \
     "orbit={kepler={$q}}" "orbit={circular={$q}}" \
     "orbit={circular={geostationary_longitude_deg=0,$q}}"
 laws=()

@@ -52,7 +52,7 @@ static void assert_state(const orbit_table *table, double t_s, const double r_m[
 /* Uniform motion, as the file has it: before the manoeuvre and after. */
 static void assert_cube(const orbit_table *table)
 {
-    const double rounding_m = 1e-7; /* of dates, 5e-12 s, at 7.6 km/s */
+    const double rounding_m = 1e-7;   /* of dates, 5e-12 s, at 7.6 km/s */
     const double rounding_m_s = 1e-9; /* that of places, over a step of 60 s */
     ck_assert_str_eq(table->object, "CUBE");
     ck_assert_str_eq(table->id, "2025-001A");
@@ -181,8 +181,8 @@ START_TEST(test_oem_read_places_every_error)
         {HEAD META_OF("GCRF", "@UT1", "") ROWS, "turns of the Earth"},
         {HEAD META_OF("GCRF", "@MET", "") ROWS, "'MET' is not taken"},
         {HEAD META_OF("GCRF", "UTC", "INTERPOLATION = @SPLINE\n") ROWS, "expected HERMITE"},
-        {HEAD META_OF("GCRF", "UTC", "INTERPOLATION_DEGREE = @0\n") ROWS, "from 1 to 31"},
-        {HEAD META_OF("GCRF", "UTC", "INTERPOLATION_DEGREE = @2.5\n") ROWS, "from 1 to 31"},
+        {HEAD META_OF("GCRF", "UTC", "INTERPOLATION_DEGREE = @0\n") ROWS, "from 1 to 25"},
+        {HEAD META_OF("GCRF", "UTC", "INTERPOLATION_DEGREE = @2.5\n") ROWS, "from 1 to 25"},
         {HEAD META_OF("GCRF", "UTC", "CENTER_NAME = @EARTH\n") ROWS, "stands twice"},
         {HEAD "@META_START\nOBJECT_NAME = CUBE\nCENTER_NAME = EARTH\nTIME_SYSTEM = "
               "UTC\nMETA_STOP\n" ROWS,
@@ -194,6 +194,9 @@ START_TEST(test_oem_read_places_every_error)
         {HEAD META ROWS "@2025-07-24T12:05:00 7000000 0 70000000 0 7.5 0\n", "unit is km"},
         {HEAD META ROWS "@2025-07-24T12:05:00 0 0 0 0 7.5 0\n", "unit is km"},
         {HEAD META ROWS ROW("02", "7000"), "record 4 of this segment"},
+        {HEAD META ROW("00", "7000") "2025-07-26T12:00:00 7000 0 0 0 7 0\n",
+         "by 0.001 to 100000 s"},
+        {HEAD META ROWS "@2025-07-24T12:05:00 7000 0 0 0 7000 0\n", "the unit is km/s"},
         {HEAD META ROW("00", "7000"), "one record"},
         {HEAD META, "no record"},
         {HEAD META ROWS "EPOCH = @2025-001\n", "among the records"},
@@ -661,7 +664,8 @@ START_TEST(test_oem_table_of_a_kepler_orbit_follows_it)
 END_TEST
 
 /* The slow turns of these frames (precession, 8e-12 rad/s, 5e-5 m/s) are no part of the velocities
- * that are written, which bends the path between nodes: by less than a quarter of a step, 60 s, of it. */
+ * that are written, which bends the path between nodes: by less than a quarter of a step, 60 s, of
+ * it. */
 START_TEST(test_oem_table_in_turning_axes_follows_the_orbit)
 {
     const kepler_elements elements = {6.8e6, 0.01, 0.9, 1.0, 0.5, 0.2};

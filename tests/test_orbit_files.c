@@ -264,6 +264,42 @@ START_TEST(test_orbit_files_report_describes_the_table)
 }
 END_TEST
 
+/* The other files of positions come the same way. */
+START_TEST(test_orbit_files_take_stk_and_sp3)
+{
+    text stk = {0}, sp3 = {0};
+    text_add(&stk, "stk.v.11.0\nBEGIN Ephemeris\nScenarioEpoch 25 Jul 2025 20:30:00.000\n"
+                   "CoordinateSystem Fixed\nInterpolationSamplesM1 3\nEphemerisTimePos\n");
+    text_add(&sp3, "#cP2025  7 25 20 30  0.00000000      11 ORBIT IGS20 HLM  IGS\n"
+                   "## 2376 388800.00000000    60.00000000 60880 0.5000000000000\n"
+                   "+    1   G01\n%c G  cc UTC\n");
+    for (int k = 0; k <= 10; k++) {
+        text_printf(&stk, "%d 6200000 1380000 %d\n", 60 * k, 2460000 + 420000 * k);
+        text_printf(&sp3,
+                    "*  2025  7 25 20 %d  0.00000000\nPG01   6200.000000   1380.000000 %13.6f\n",
+                    30 + k, 2460.0 + 420.0 * k);
+    }
+    text_add(&stk, "END Ephemeris\n");
+    text_add(&sp3, "EOF\n");
+    write_bytes("cube.e", stk.data, stk.length);
+    write_bytes("cube.sp3", sp3.data, sp3.length);
+    text_free(&stk);
+    text_free(&sp3);
+    marked_text m;
+    glint_scenario *oem = read_sound(write_scenario(30, 40, 0, 0, true, &m));
+    static const char *const texts[] = {"[orbit]\nstk = \"cube.e\"\n",
+                                        "[orbit]\nsp3 = \"cube.sp3\"\nsp3_satellite = \"G01\"\n"};
+    for (size_t k = 0; k < COUNT_OF(texts); k++) {
+        glint_scenario *s = read_with(SOUND, PART_ORBIT, texts[k]);
+        ck_assert_int_eq(s->orbit.source, ORBIT_POSITIONS);
+        for (double t_s = 0; t_s <= 60; t_s += 7) /* m: rounding of dates, 5e-12 s at 7 km/s */
+            assert_near(distance_m(s->orbit.propagator, oem->orbit.propagator, t_s), 0, 1e-6);
+        glint_scenario_free(s);
+    }
+    glint_scenario_free(oem);
+}
+END_TEST
+
 /* The whole way to a light curve: straight motion in ITRS gives these ranges. */
 START_TEST(test_orbit_files_table_reaches_the_light_curve)
 {
@@ -333,6 +369,7 @@ int main(void)
     tcase_add_test(all, test_orbit_files_report_names_the_sets_in_use);
     tcase_add_test(all, test_orbit_files_run_must_lie_inside_the_table);
     tcase_add_test(all, test_orbit_files_report_describes_the_table);
+    tcase_add_test(all, test_orbit_files_take_stk_and_sp3);
     tcase_add_test(all, test_orbit_files_table_reaches_the_light_curve);
     tcase_add_test(all, test_orbit_files_records_far_apart_get_a_warning);
     suite_add_tcase(suite, all);

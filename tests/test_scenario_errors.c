@@ -88,7 +88,7 @@ START_TEST(test_scenario_orbit_wrong_is_refused)
 {
     static const wrong_text all[] = {
         {PART_ORBIT, "@[orbit]\n", "no source",
-         "exactly one of tle, tle_lines, omm, oem, kepler, circular", 0},
+         "exactly one of tle, tle_lines, omm, oem, stk, sp3, kepler, circular", 0},
         {PART_ORBIT,
          "@[orbit]\ncircular = { " CIRCLE ", argument_of_latitude_deg = 0 }\n"
          "kepler = { semi_major_axis_km = 7000, eccentricity = 0, " KEPLER " }\n",
@@ -129,7 +129,7 @@ START_TEST(test_scenario_orbit_wrong_is_refused)
         {PART_ORBIT, "[orbit]\nomm = @\"iss.omm\"\n", "iss.omm", "No such file", 0},
         {PART_ORBIT, "[orbit]\noem = @\"iss.oem\"\n", "iss.oem", "No such file", 0},
         {PART_ORBIT, "[orbit]\noem = @5\n", "the number 5", "the path of a file", 0},
-        {PART_ORBIT, "@[orbit]\noem = \"a\"\nomm = \"a\"\n", "several sources", "exactly one", 2},
+        {PART_ORBIT, "@[orbit]\noem = \"a\"\nomm = \"a\"\n", "several sources", "exactly one", 0},
         {PART_ORBIT, "[orbit]\n@oem_object = \"a\"\ntle_lines = [\"" LINE1 "\", \"" LINE2 "\"]\n",
          "unknown key 'oem_object'", "expected one of", 0},
         {PART_ORBIT, "[orbit]\ntle_lines = @[\"" LINE1 "\"]\n", "'tle_lines'", "two strings", 0},

@@ -62,7 +62,8 @@ static void describe_table(text *out, const glint_scenario *s, const scenario_or
     orbit_table_span(table, &from_s, &to_s);
     for (size_t k = 0; k < table->n; k++)
         records += table->segments[k].n;
-    text_printf(out, "positions of ");
+    const bool named = table->object[0] || table->id[0];
+    text_add(out, named ? "positions of " : "positions");
     add_name(out, table->object, "id", table->id);
     text_printf(out, " (%s): %zu records in %s", table->format, records, first->frame_name);
     if (table->n > 1) text_printf(out, ", %zu segments", table->n);
@@ -87,7 +88,7 @@ char *fact_orbit(const glint_scenario *s, const scenario_orbit *o)
     case ORBIT_TLE:
         describe_sets(&out, s, o);
         break;
-    case ORBIT_OEM:
+    case ORBIT_POSITIONS:
         describe_table(&out, s, o);
         break;
     case ORBIT_KEPLER:

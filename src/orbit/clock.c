@@ -5,6 +5,7 @@
 
 #include <erfa.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -236,6 +237,24 @@ glint_status utc_parse(const char *string, place where, utc_time *out, glint_err
     status = utc_check(&utc, where, error);
     if (!status) *out = utc;
     return status;
+}
+
+glint_status utc_parse_worded(const char *string, place where, utc_time *out, glint_error *error)
+{
+    static const char MONTHS[] = "janfebmaraprmayjunjulaugsepoctnovdec";
+    int day, year, used = 0, k = 0;
+    char month[4], time[32], plain[64];
+    const bool good =
+        sscanf(string, "%2d %3[A-Za-z] %4d %31s%n", &day, month, &year, time, &used) == 4 &&
+        string[used] == '\0' && strlen(month) == 3 && day >= 0 && year >= 0;
+    while (good && k < 12 && strncasecmp(MONTHS + 3 * k, month, 3) != 0)
+        k++;
+    if (!good || k == 12)
+        return error_set(error, GLINT_INPUT, where,
+                         "'%.40s' is not a time; expected a form like 24 Jul 2025 19:10:00.000",
+                         string);
+    snprintf(plain, sizeof plain, "%04d-%02d-%02dT%s", year, k + 1, day, time);
+    return utc_parse(plain, where, out, error);
 }
 
 /* --------------------------------------------------------------- time scales */

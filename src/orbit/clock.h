@@ -17,6 +17,9 @@ typedef struct utc_time {
  * utc_check refuses, second 60 where there is no leap second. *out is set on success only. */
 glint_status utc_parse(const char *string, place where, utc_time *out, glint_error *error);
 
+/* Reads "24 Jul 2025 19:10:00.000", as STK writes times; months in English. Errors as above. */
+glint_status utc_parse_worded(const char *string, place where, utc_time *out, glint_error *error);
+
 /* Checks the calendar (years 1972 to 2100: UTC has whole leap seconds since 1972, the Sun's
  * ephemeris holds to 2100) and the day's length. Errors: GLINT_INPUT. */
 glint_status utc_check(const utc_time *utc, place where, glint_error *error);

@@ -13,8 +13,6 @@
 
 /* Degree of interpolation where the file gives none. */
 enum { DEFAULT_DEGREE = 7 };
-/* Places nearer or farther than this (m) are mistakes, mostly of units. */
-static const double NEAREST_M = 6000e3, FARTHEST_M = 1e10;
 
 /* The keywords of a segment's metadata that are looked at. */
 typedef enum meta_key {
@@ -244,12 +242,10 @@ static void add_record(oem_reading *o, const ccsds_item *item, const double tt_j
     double r_m[3], v_m_s[3];
     scale3(numbers, 1e3, r_m);
     scale3(numbers + 3, 1e3, v_m_s);
-    const double distance_m = norm3(r_m);
-    if (!(distance_m >= NEAREST_M && distance_m <= FARTHEST_M) && !o->other_centre) {
-        note(o, errors_add(o->errors, GLINT_INPUT, ccsds_place(o->file, item),
-                           "this record lies %.6g km from the Earth's centre; expected %g to %g km "
-                           "(the unit is km)",
-                           distance_m * 1e-3, NEAREST_M * 1e-3, FARTHEST_M * 1e-3));
+    glint_error error;
+    if (!o->other_centre &&
+        table_state_check(r_m, v_m_s, "km", ccsds_place(o->file, item), &error)) {
+        take_error(o, &error);
         return;
     }
     if (o->eme2000) table_node_from_eme2000(r_m, v_m_s);

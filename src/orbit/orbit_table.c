@@ -111,6 +111,24 @@ void table_node_from_eme2000(double r_m[3], double v_m_s[3])
 
 /* ------------------------------------------------------------------- checking */
 
+glint_status table_state_check(const double r_m[3], const double v_m_s[3], const char *unit,
+                               place where, glint_error *error)
+{
+    static const double NEAREST_M = 6000e3, FARTHEST_M = 1e10, FASTEST_M_S = 1e6;
+    const double distance_m = norm3(r_m), speed_m_s = norm3(v_m_s);
+    if (!(distance_m >= NEAREST_M && distance_m <= FARTHEST_M))
+        return error_set(error, GLINT_INPUT, where,
+                         "this record lies %.6g km from the Earth's centre; expected %g to %g km "
+                         "(the unit is %s)",
+                         distance_m * 1e-3, NEAREST_M * 1e-3, FARTHEST_M * 1e-3, unit);
+    if (!(speed_m_s <= FASTEST_M_S))
+        return error_set(error, GLINT_INPUT, where,
+                         "this record moves with %.6g km/s; expected at most %g km/s (the unit is "
+                         "%s/s)",
+                         speed_m_s * 1e-3, FASTEST_M_S * 1e-3, unit);
+    return GLINT_OK;
+}
+
 static void time_text(const orbit_table *table, double t_s, char out[UTC_TEXT_SIZE + 1])
 {
     const double tt_jd[2] = {table->reference_jd[0], table->reference_jd[1] + t_s / DAY_S};
@@ -127,6 +145,7 @@ static int nodes_for(table_method method, int degree)
 
 static glint_status check_nodes(const orbit_table *table, table_segment *s, glint_errors *errors)
 {
+    static const double SHORTEST_STEP_S = 1e-3, LONGEST_STEP_S = 1e5;
     const place where = {table->path, s->line, 0};
     if (s->n < 2)
         return errors_add(errors, GLINT_INPUT, where,
@@ -134,13 +153,14 @@ static glint_status check_nodes(const orbit_table *table, table_segment *s, glin
                           "file may be cut; get it again, or take the segment out",
                           s->n ? "one record" : "no record");
     for (size_t k = 1; k < s->n; k++) {
-        if (s->nodes[k].t_s > s->nodes[k - 1].t_s) continue;
+        const double step_s = s->nodes[k].t_s - s->nodes[k - 1].t_s;
+        if (step_s >= SHORTEST_STEP_S && step_s <= LONGEST_STEP_S) continue;
         char when[UTC_TEXT_SIZE + 1];
         time_text(table, s->nodes[k].t_s, when);
         return errors_add(errors, GLINT_INPUT, where,
-                          "record %zu of this segment, of %s UTC, is not later than the one before "
-                          "it; expected times that grow",
-                          k + 1, when);
+                          "record %zu of this segment, of %s UTC, is %.6g s later than the one "
+                          "before it; expected times that grow, by %g to %g s",
+                          k + 1, when, step_s, SHORTEST_STEP_S, LONGEST_STEP_S);
     }
     return GLINT_OK;
 }

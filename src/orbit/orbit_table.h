@@ -14,9 +14,10 @@ typedef enum table_frame { TABLE_GCRS, TABLE_TEME, TABLE_ITRS } table_frame;
 typedef enum table_method { TABLE_LINEAR, TABLE_LAGRANGE, TABLE_HERMITE } table_method;
 
 /* Highest degree of interpolation that is taken. */
-enum { TABLE_MAX_DEGREE = 31, TABLE_TEXT_SIZE = 64 };
+enum { TABLE_MAX_DEGREE = 25, TABLE_TEXT_SIZE = 64 };
 
-/* s: a table answers so much before its first moment and after its last, since dates are rounded. */
+/* s: a table answers so much before its first moment and after its last, since dates are rounded.
+ */
 #define TABLE_EDGE_S 1e-6
 
 /* One state: position (m) and velocity (m/s). In ITRS the velocity is the one against the Earth. */
@@ -67,8 +68,14 @@ bool table_frame_find(const char *name, table_frame *out, bool *eme2000);
 /* Turns a node from EME2000 to GCRS by the frame bias of IAU 2006 (23 mas). */
 void table_node_from_eme2000(double r_m[3], double v_m_s[3]);
 
-/* Ends the making of a table: checks that there are segments of at least two nodes each whose times
- * grow, in order and without overlap of their use; lowers degrees that a segment has too few nodes
+/* Checks that a place (m) is outside the Earth and no farther than 1e7 km, and a velocity (m/s) below
+ * 1000 km/s: others are mistakes, mostly of units. unit: the one of the file, "km". Errors:
+ * GLINT_INPUT. */
+glint_status table_state_check(const double r_m[3], const double v_m_s[3], const char *unit,
+                               place where, glint_error *error);
+
+/* Ends the making of a table: checks that there are segments of at least two nodes each, 1 ms to
+ * 1e5 s apart (which keeps polynomials finite), in order and without overlap of their use; lowers degrees that a segment has too few nodes
  * for, with a warning. Errors: GLINT_INPUT, all of them. */
 glint_status orbit_table_finish(orbit_table *table, glint_errors *errors);
 

@@ -3,6 +3,8 @@
 #include "base/vec.h"
 #include "orbit/oem.h"
 #include "orbit/omm.h"
+#include "orbit/sp3.h"
+#include "orbit/stk.h"
 #include "scenario/reading.h"
 
 #include <math.h>
@@ -133,19 +135,37 @@ static void read_tle_lines(reading *rd, reader *r, const toml_node *lines, scena
         r->status = errors_take(rd->errors, &error, lines->where);
 }
 
-/* Reads a table of positions and makes the orbit of it, once the time is known. */
-static void read_oem(reading *rd, reader *r, const toml_node *file, scenario_orbit *out)
+/* The files of positions: each by its key, and the key that chooses among its objects. */
+static glint_status read_stk(const char *path, place asked_from, const char *object,
+                             orbit_table **out, glint_errors *errors)
+{
+    (void)object; /* such a file has one */
+    return stk_read(path, asked_from, out, errors);
+}
+
+static const struct {
+    const char *key, *object_key; /* NULL: none */
+    glint_status (*read)(const char *path, place asked_from, const char *object, orbit_table **out,
+                         glint_errors *errors);
+} POSITION_FILES[] = {
+    {"oem", "oem_object", oem_read}, {"stk", NULL, read_stk}, {"sp3", "sp3_satellite", sp3_read}};
+enum { N_POSITION_FILES = sizeof POSITION_FILES / sizeof *POSITION_FILES };
+
+/* Reads a table of positions, and makes the orbit of it. */
+static void read_positions(reading *rd, reader *r, size_t k, const toml_node *file,
+                           scenario_orbit *out)
 {
     const char *object = NULL;
-    reader_string(r, "oem_object", false, &object);
-    out->source = ORBIT_OEM;
+    if (POSITION_FILES[k].object_key)
+        reader_string(r, POSITION_FILES[k].object_key, false, &object);
+    out->source = ORBIT_POSITIONS;
     if (!file) return;
     out->file = file->string;
     char *path = reading_path(rd, file);
     if (!path) return;
     orbit_table *table;
     glint_error error;
-    glint_status status = oem_read(path, file->where, object, &table, rd->errors);
+    glint_status status = POSITION_FILES[k].read(path, file->where, object, &table, rd->errors);
     if (!status && orbit_from_table(table, &rd->s->clock, &out->propagator, &error))
         status = errors_take(rd->errors, &error, file->where);
     if (status > r->status) r->status = status;
@@ -270,7 +290,7 @@ static void make_orbit(reading *rd, place where, scenario_orbit *out)
                                  run_end_s(rd->s), &out->propagator, &error);
         if (!status) warn_of_age(rd, where, out);
         break;
-    case ORBIT_OEM:
+    case ORBIT_POSITIONS:
         check_span(rd, where, out);
         break;
     case ORBIT_KEPLER:
@@ -291,8 +311,6 @@ static void read_source(reading *rd, reader *r, scenario_orbit *out)
         read_sets(rd, r, reader_get(r, "tle", TOML_STRING, true, A_FILE), tle_file_read, out);
     } else if (reader_has(r, "omm")) {
         read_sets(rd, r, reader_get(r, "omm", TOML_STRING, true, A_FILE), omm_file_read, out);
-    } else if (reader_has(r, "oem")) {
-        read_oem(rd, r, reader_get(r, "oem", TOML_STRING, true, A_FILE), out);
     } else if (reader_has(r, "tle_lines")) {
         read_tle_lines(
             rd, r, reader_get(r, "tle_lines", TOML_ARRAY, true, "two strings: line 1 and line 2"),
@@ -304,20 +322,28 @@ static void read_source(reading *rd, reader *r, scenario_orbit *out)
         const toml_node *elements = reader_table(r, "circular", true);
         if (elements) read_circular(rd, r, elements, out);
     }
+    for (size_t k = 0; k < N_POSITION_FILES; k++) {
+        const char *key = POSITION_FILES[k].key;
+        if (reader_has(r, key))
+            read_positions(rd, r, k, reader_get(r, key, TOML_STRING, true, A_FILE), out);
+    }
 }
 
 void read_orbit(reading *rd, const toml_node *table, const char *name, scenario_orbit *out)
 {
-    static const char *const SOURCES[] = {"tle", "tle_lines", "omm", "oem", "kepler", "circular"};
+    static const char *const SOURCES[] = {"tle", "tle_lines", "omm",    "oem",
+                                          "stk", "sp3",       "kepler", "circular"};
     reader r = reader_start(table, name, rd->errors);
     int given = 0;
     for (size_t k = 0; k < sizeof SOURCES / sizeof *SOURCES; k++)
         given += reader_has(&r, SOURCES[k]);
     if (given != 1)
-        reader_fail(&r, table->where,
-                    "%s has %s; expected exactly one of tle, tle_lines, omm, oem, kepler, circular",
-                    name, given ? "several sources" : "no source");
-    read_source(rd, &r, out);
+        reader_fail(
+            &r, table->where,
+            "%s has %s; expected exactly one of tle, tle_lines, omm, oem, stk, sp3, kepler, "
+            "circular",
+            name, given ? "several sources" : "no source");
+    if (given == 1) read_source(rd, &r, out);
     reading_done(rd, &r);
     if (r.status == GLINT_OK && rd->s->n_steps > 0) make_orbit(rd, table->where, out);
 }

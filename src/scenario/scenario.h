@@ -45,8 +45,8 @@ typedef struct satellite {
 } satellite;
 
 typedef enum orbit_source {
-    ORBIT_TLE, /* element sets, from two lines or OMM */
-    ORBIT_OEM, /* a table of positions */
+    ORBIT_TLE,       /* element sets, from two lines or OMM */
+    ORBIT_POSITIONS, /* a table of positions */
     ORBIT_KEPLER,
     ORBIT_CIRCULAR,
     ORBIT_GEOSTATIONARY
