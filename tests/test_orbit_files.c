@@ -325,6 +325,28 @@ START_TEST(test_orbit_files_table_reaches_the_light_curve)
 }
 END_TEST
 
+/* A run over all of a table: searches for passes and rates reach no farther than it answers. */
+START_TEST(test_orbit_files_passes_and_ephemeris_keep_to_the_table)
+{
+    marked_text m;
+    glint_scenario *s = read_sound(write_scenario(37, 38, 0, 0, false, &m));
+    glint_error error = {0};
+    glint_passes *passes;
+    glint_ephemeris *ephemeris;
+    ck_assert_msg(glint_passes_find(s, NULL, &passes, &error) == GLINT_OK, "%s", error.message);
+    ck_assert_uint_eq(glint_passes_count(passes), 1);
+    glint_passes_free(passes);
+    ck_assert_int_eq(glint_ephemeris_open(s, 1, &ephemeris, &error), GLINT_OK);
+    const glint_ephemeris_row *rows;
+    size_t n;
+    ck_assert_msg(glint_ephemeris_next(ephemeris, &rows, &n, &error) == GLINT_OK, "%s",
+                  error.message);
+    ck_assert_uint_eq(n, 7);
+    glint_ephemeris_close(ephemeris);
+    glint_scenario_free(s);
+}
+END_TEST
+
 /* Records an hour apart cannot say where a low satellite is. */
 START_TEST(test_orbit_files_records_far_apart_get_a_warning)
 {
@@ -371,6 +393,7 @@ int main(void)
     tcase_add_test(all, test_orbit_files_report_describes_the_table);
     tcase_add_test(all, test_orbit_files_take_stk_and_sp3);
     tcase_add_test(all, test_orbit_files_table_reaches_the_light_curve);
+    tcase_add_test(all, test_orbit_files_passes_and_ephemeris_keep_to_the_table);
     tcase_add_test(all, test_orbit_files_records_far_apart_get_a_warning);
     suite_add_tcase(suite, all);
     return run_suite(suite);

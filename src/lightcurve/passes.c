@@ -93,7 +93,9 @@ static glint_status edge_at(void *context, double t_s, double *y, glint_error *e
 {
     const edge_search *e = context;
     sighting seen;
-    const glint_status status = watch_at(e->w, t_s, &seen, error);
+    /* looks beyond a span go no farther than the run, behind which a table of positions may end */
+    const double inside_s = fmin(fmax(t_s, 0), e->w->s->span_s);
+    const glint_status status = watch_at(e->w, inside_s, &seen, error);
     if (status) return status;
     if (e->kind == EDGE_DARKNESS) {
         *y = e->w->s->sun_elevation_max - sun_elevation_at(e->w->s, &seen);

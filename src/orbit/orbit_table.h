@@ -16,9 +16,9 @@ typedef enum table_method { TABLE_LINEAR, TABLE_LAGRANGE, TABLE_HERMITE } table_
 /* Highest degree of interpolation that is taken. */
 enum { TABLE_MAX_DEGREE = 25, TABLE_TEXT_SIZE = 64 };
 
-/* s: a table answers so much before its first moment and after its last, since dates are rounded.
- */
-#define TABLE_EDGE_S 1e-6
+/* s: a table answers so much before its first moment and after its last. Dates are rounded, and
+ * searches for events take differences over 0.1 s on either side of moments of the run. */
+#define TABLE_EDGE_S 0.15
 
 /* One state: position (m) and velocity (m/s). In ITRS the velocity is the one against the Earth. */
 typedef struct table_node {

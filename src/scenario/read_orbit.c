@@ -246,11 +246,12 @@ static void check_span(reading *rd, place where, const scenario_orbit *o)
     orbit_table_span(table, &from_s, &to_s);
     from_s += reference_s;
     to_s += reference_s;
-    const double end_s = run_end_s(s);
+    static const double ROUNDED_S = 1e-6; /* s: of dates */
+    const double end_s = s->span_s;
     const bool seen = o == &s->orbit && s->light_time;
     const double light_s = seen ? longest_light_time_s(table) : 0;
     glint_status status = GLINT_OK;
-    if (from_s > TABLE_EDGE_S || to_s < end_s - TABLE_EDGE_S)
+    if (from_s > ROUNDED_S || to_s < end_s - ROUNDED_S)
         status = errors_add(rd->errors, GLINT_INPUT, where,
                             "the table of positions goes from %s to %s UTC, and the run from %s to "
                             "%s UTC; expected a run inside the table",
@@ -265,7 +266,7 @@ static void check_span(reading *rd, place where, const scenario_orbit *o)
     for (size_t k = 1; k < table->n && !status; k++) {
         const double gap_s[2] = {reference_s + table->segments[k - 1].to_s,
                                  reference_s + table->segments[k].from_s};
-        if (gap_s[0] < gap_s[1] && gap_s[0] + TABLE_EDGE_S < end_s && gap_s[1] > -light_s)
+        if (gap_s[0] < gap_s[1] && gap_s[0] + ROUNDED_S < end_s && gap_s[1] > -light_s)
             status = errors_add(rd->errors, GLINT_INPUT, where,
                                 "the table of positions has a gap from %s to %s UTC, inside the "
                                 "run; expected a run between gaps",
