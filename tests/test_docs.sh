@@ -261,8 +261,10 @@ described 'Top level' "$iss" "$q" "title=\"\"
 $q"
 described '`[time]`' "$iss" "time.$q"
 described '`[observer]`' "$iss" "observer.$q" "observer={satellite={},$q}"
-described '`[orbit]`' "$iss" "orbit.$q" "orbit={tle_lines=[\"\",\"\"],$q}" "orbit={kepler={$q}}" \
-    "orbit={circular={$q}}" "orbit={circular={geostationary_longitude_deg=0,$q}}"
+described '`[orbit]`' "$iss" "orbit.$q" "orbit={tle_lines=[\"\",\"\"],$q}" "orbit={oem=\"\",$q}" \
+    "orbit={stk=\"\",$q}" "orbit={sp3=\"\",$q}" \
+    "orbit={kepler={$q}}" "orbit={circular={$q}}" \
+    "orbit={circular={geostationary_longitude_deg=0,$q}}"
 laws=()
 for law in $(glint check -q "$iss" --set "attitude={law=\"$nobody\"}" 2>&1 |
     sed -n 's/.*; expected one of: //p' | tr -d ','); do

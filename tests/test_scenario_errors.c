@@ -87,8 +87,8 @@ END_TEST
 START_TEST(test_scenario_orbit_wrong_is_refused)
 {
     static const wrong_text all[] = {
-        {PART_ORBIT, "@[orbit]\n", "no source", "exactly one of tle, tle_lines, kepler, circular",
-         0},
+        {PART_ORBIT, "@[orbit]\n", "no source",
+         "exactly one of tle, tle_lines, omm, oem, stk, sp3, kepler, circular", 0},
         {PART_ORBIT,
          "@[orbit]\ncircular = { " CIRCLE ", argument_of_latitude_deg = 0 }\n"
          "kepler = { semi_major_axis_km = 7000, eccentricity = 0, " KEPLER " }\n",
@@ -126,8 +126,12 @@ START_TEST(test_scenario_orbit_wrong_is_refused)
          "inclination_deg = @181, raan_deg = 0, argument_of_perigee_deg = 0, "
          "mean_anomaly_deg = 0 }\n",
          "181", "between 0 and 180", 0},
-        {PART_ORBIT, "[orbit]\n@omm = \"iss.omm\"\n", "'omm'", "not built yet", 0},
-        {PART_ORBIT, "[orbit]\n@oem = \"iss.oem\"\n", "'oem'", "not built yet", 0},
+        {PART_ORBIT, "[orbit]\nomm = @\"iss.omm\"\n", "iss.omm", "No such file", 0},
+        {PART_ORBIT, "[orbit]\noem = @\"iss.oem\"\n", "iss.oem", "No such file", 0},
+        {PART_ORBIT, "[orbit]\noem = @5\n", "the number 5", "the path of a file", 0},
+        {PART_ORBIT, "@[orbit]\noem = \"a\"\nomm = \"a\"\n", "several sources", "exactly one", 0},
+        {PART_ORBIT, "[orbit]\n@oem_object = \"a\"\ntle_lines = [\"" LINE1 "\", \"" LINE2 "\"]\n",
+         "unknown key 'oem_object'", "expected one of", 0},
         {PART_ORBIT, "[orbit]\ntle_lines = @[\"" LINE1 "\"]\n", "'tle_lines'", "two strings", 0},
         {PART_ORBIT, "[orbit]\ntle_lines = @[1, 2]\n", "'tle_lines'", "two strings", 0},
         {PART_ORBIT, "[orbit]\ntle_lines = @\"" LINE1 "\"\n", "the string", "two strings", 0},

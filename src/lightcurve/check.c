@@ -29,7 +29,7 @@ static void report_time(const glint_scenario *s, text *t)
                 "%g deg\n",
                 s->site_name, s->site_name[0] ? ": " : "", s->site.latitude / DEG,
                 s->site.longitude / DEG, s->site.height_m, s->min_elevation / DEG);
-    char *line = fact_orbit(s);
+    char *line = fact_orbit(s, &s->orbit);
     text_printf(t, "orbit       %s\n", line ? line : "");
     free(line);
     text_printf(t, "attitude    %s%s\n", s->attitude.law->name,

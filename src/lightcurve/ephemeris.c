@@ -128,7 +128,7 @@ enum { N_COLUMNS = sizeof COLUMNS / sizeof *COLUMNS };
 
 static bool has(const glint_scenario *s, column_need need)
 {
-    if (need == NEED_TEME) return s->orbit_source == ORBIT_TLE;
+    if (need == NEED_TEME) return orbit_wanted_frames(s->orbit.propagator) & FRAMES_TEME;
     return need == NEED_ATTITUDE ? s->has_attitude : true;
 }
 

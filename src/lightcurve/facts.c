@@ -87,6 +87,28 @@ static uint64_t hash_satellite(uint64_t hash, const satellite *sat, int n_bands)
                       (size_t)polygons->n_vertices * sizeof *polygons->vertices);
 }
 
+/* Element sets and positions, which come from files of their own. */
+static uint64_t hash_orbit(uint64_t hash, const scenario_orbit *o)
+{
+    for (size_t k = 0; k < o->sets.n; k++) {
+        const tle *e = &o->sets.sets[k];
+        const double elements[] = {e->epoch_jd[0],         e->epoch_jd[1],  e->bstar,
+                                   e->inclination,         e->raan,         e->eccentricity,
+                                   e->argument_of_perigee, e->mean_anomaly, e->mean_motion};
+        hash = hash_bytes(hash, elements, sizeof elements);
+    }
+    const orbit_table *table = orbit_table_of(o->propagator, NULL);
+    for (size_t k = 0; table && k < table->n; k++) {
+        const table_segment *part = &table->segments[k];
+        const int how[] = {(int)part->frame, (int)part->method, part->degree};
+        const double use_s[] = {part->from_s, part->to_s};
+        hash = hash_bytes(hash, how, sizeof how);
+        hash = hash_bytes(hash, use_s, sizeof use_s);
+        hash = hash_bytes(hash, part->nodes, part->n * sizeof *part->nodes);
+    }
+    return hash;
+}
+
 /* Of all that decides the result: the files, what was set, the element set, the directions. */
 static uint64_t scenario_hash(const glint_scenario *s)
 {
@@ -96,13 +118,7 @@ static uint64_t scenario_hash(const glint_scenario *s)
     for (size_t i = 0; i < s->n_overrides; i++)
         hash = hash_text(hash, s->overrides[i]);
     hash = hash_satellite(hash, &s->satellite, s->n_bands);
-    if (!s->has_geometry && s->orbit_source == ORBIT_TLE) {
-        const double elements[] = {
-            s->tle.epoch_jd[0],         s->tle.epoch_jd[1],  s->tle.bstar,
-            s->tle.inclination,         s->tle.raan,         s->tle.eccentricity,
-            s->tle.argument_of_perigee, s->tle.mean_anomaly, s->tle.mean_motion};
-        hash = hash_bytes(hash, elements, sizeof elements);
-    }
+    if (!s->has_geometry) hash = hash_orbit(hash, &s->orbit);
     if (s->has_geometry) {
         const size_t n = (size_t)s->geometry.n;
         hash = hash_bytes(hash, s->geometry.sun, n * sizeof *s->geometry.sun);
@@ -111,36 +127,6 @@ static uint64_t scenario_hash(const glint_scenario *s)
         hash = hash_bytes(hash, s->geometry.t_s, n * sizeof *s->geometry.t_s);
     }
     return hash;
-}
-
-char *fact_orbit(const glint_scenario *s)
-{
-    text out = {0};
-    const kepler_elements *k = &s->kepler;
-    switch (s->orbit_source) {
-    case ORBIT_TLE: {
-        double tt_jd[2];
-        utc_jd_to_tt(s->tle.epoch_jd, tt_jd, NULL);
-        const double days = jd_difference_s(s->clock.tt_jd, tt_jd) / DAY_S;
-        text_printf(&out,
-                    "SGP4 (AIAA 2006-6753, WGS72, mode i), element set of %s%s%d whose epoch lies "
-                    "%.3f days %s the start",
-                    s->tle.name, s->tle.name[0] ? ", number " : "number ", s->tle.number,
-                    fabs(days), days >= 0 ? "before" : "after");
-        break;
-    }
-    case ORBIT_KEPLER:
-    case ORBIT_CIRCULAR:
-        text_printf(&out,
-                    "Kepler%s, a = %.6g km, e = %.6g, i = %.6g deg; equator of date neglected",
-                    s->j2 ? " with the secular drift of J2" : ", two bodies",
-                    k->semi_major_axis_m * 1e-3, k->eccentricity, k->inclination / DEG);
-        break;
-    case ORBIT_GEOSTATIONARY:
-        text_printf(&out, "geostationary, longitude %.6g deg", s->geostationary_longitude / DEG);
-        break;
-    }
-    return out.data;
 }
 
 static void add_bands(const glint_scenario *s, fact_list *out)
@@ -170,9 +156,12 @@ static void add_time(const glint_scenario *s, fact_list *out)
         s->dut1_s == 0 ? " (UT1-UTC taken as 0: at most 0.9 s, 0.4 km on the equator)" : "");
     add(out, "polar_motion", "taken as 0 (at most 0.6 arcsec, 20 m on the ground)");
     if (s->clock.dubious) add(out, "leap_seconds", "not known for these years");
-    char *line = fact_orbit(s);
+    char *line = fact_orbit(s, &s->orbit);
     add(out, "orbit", "%s", line ? line : "");
     free(line);
+    char *sets = fact_element_sets(s, &s->orbit);
+    if (sets) add(out, "element_sets", "%s", sets);
+    free(sets);
     add(out, "light_time", s->light_time ? "yes" : "no");
     add(out, "aberration", s->aberration ? "yes, of the Sun" : "no");
     add(out, "eclipse", "WGS84 ellipsoid, uniform solar disc, no refraction in the atmosphere");

@@ -36,7 +36,7 @@ static glint_status solve_light_time(const glint_scenario *s, double t_s, double
     double tau = s->light_time ? guess_s : 0;
     for (int round = 0;; round++) {
         frames_earlier(&out->frames, tau, emission);
-        const glint_status status = orbit_state(s->orbit, t_s - tau, emission, cursor, r, v, error);
+        const glint_status status = orbit_state(s->orbit.propagator, t_s - tau, emission, cursor, r, v, error);
         if (status) return status;
         sub3(r, out->site_gcrs_m, rho);
         out->range_m = unit3(rho, out->sight_gcrs);
@@ -56,7 +56,7 @@ static glint_status solve_light_time(const glint_scenario *s, double t_s, double
 glint_status sighting_at(const glint_scenario *s, const frame_grid *grid, double t_s,
                          double guess_s, orbit_cursor *cursor, sighting *out, glint_error *error)
 {
-    frame_grid_at(grid, t_s, orbit_wanted_frames(s->orbit) | FRAMES_SUN, &out->frames);
+    frame_grid_at(grid, t_s, orbit_wanted_frames(s->orbit.propagator) | FRAMES_SUN, &out->frames);
     mat_tvec(out->frames.itrs_gcrs, s->site.r_itrs_m, out->site_gcrs_m);
     frame_set emission;
     const glint_status status = solve_light_time(s, t_s, guess_s, cursor, out, &emission, error);

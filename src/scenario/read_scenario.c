@@ -449,7 +449,8 @@ static void read_all(reading *rd, toml_document *document)
         read_corrections(rd, &root);
         read_time(rd, &root);
         read_observer(rd, &root);
-        read_orbit(rd, &root);
+        const toml_node *orbit_node = reader_table(&root, "orbit", true);
+        if (orbit_node) read_orbit(rd, orbit_node, "[orbit]", &s->orbit);
         s->has_attitude = !rd->orbit_only || reader_has(&root, "attitude");
         if (s->has_attitude) read_attitude(rd, &root);
     }
@@ -596,7 +597,7 @@ void glint_scenario_free(glint_scenario *s)
     if (!s) return;
     expectations_free(s);
     satellite_free(&s->satellite);
-    orbit_free(s->orbit);
+    scenario_orbit_free(&s->orbit);
     free(s->geometry.sun);
     free(s->geometry.observer);
     free(s->geometry.range_m);

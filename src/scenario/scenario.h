@@ -45,11 +45,24 @@ typedef struct satellite {
 } satellite;
 
 typedef enum orbit_source {
-    ORBIT_TLE,
+    ORBIT_TLE,       /* element sets, from two lines or OMM */
+    ORBIT_POSITIONS, /* a table of positions */
     ORBIT_KEPLER,
     ORBIT_CIRCULAR,
     ORBIT_GEOSTATIONARY
 } orbit_source;
+
+/* An orbit: how the scenario says it, and what propagates it. */
+typedef struct scenario_orbit {
+    orbit_source source;
+    tle_list sets;          /* TLE; owned */
+    const char *file;       /* of element sets or positions, as written; borrowed; NULL without */
+    kepler_elements kepler; /* KEPLER and CIRCULAR */
+    double epoch_s;         /* of these: TT s from the start */
+    bool j2;
+    double geostationary_longitude; /* rad */
+    orbit *propagator;              /* owned */
+} scenario_orbit;
 
 typedef enum self_shadows { SHADOWS_EXACT, SHADOWS_NONE } self_shadows;
 
@@ -129,13 +142,7 @@ struct glint_scenario {
     earth_site site;
     double min_elevation; /* rad */
 
-    orbit_source orbit_source;
-    tle tle;
-    kepler_elements kepler; /* KEPLER and CIRCULAR */
-    double orbit_epoch_s;   /* TT s from the start */
-    bool j2;
-    double geostationary_longitude;
-    orbit *orbit; /* owned */
+    scenario_orbit orbit;
 
     bool has_attitude, has_satellite; /* false only where they may be absent, and are */
     attitude attitude;
