@@ -226,6 +226,12 @@ static attitude_spec random_spec(const attitude_law *law, uint64_t *state)
     return spec;
 }
 
+/* Attitudes from files have tests of their own. */
+static bool has_no_file(const attitude_law *law)
+{
+    return attitude_key_index(law, "file") < 0;
+}
+
 /* Prepares a spec that must fail with n errors, and returns the one at index `which`. */
 static glint_error prepare_failure(const attitude_spec *spec, size_t n, size_t which)
 {
@@ -402,7 +408,7 @@ START_TEST(test_attitude_table_is_complete)
             ck_assert_ptr_nonnull(law->keys[k].unit);
         }
     }
-    ck_assert_uint_eq(n, 7);
+    ck_assert_uint_eq(n, 9);
     ck_assert_ptr_null(attitude_law_named("Nadir"));
 }
 END_TEST
@@ -411,7 +417,7 @@ START_TEST(test_attitude_every_law_is_a_rotation)
 {
     uint64_t state = 1;
     for (size_t n = 0; attitude_law_at(n); n++)
-        for (int i = 0; i < 200; i++) {
+        for (int i = 0; i < 200 && has_no_file(attitude_law_at(n)); i++) {
             const attitude_spec spec = random_spec(attitude_law_at(n), &state);
             const attitude a = prepared(&spec);
             const moment m = random_moment(&state);
@@ -429,7 +435,7 @@ START_TEST(test_attitude_every_law_turns_with_the_scene)
 {
     uint64_t state = 2;
     for (size_t n = 0; attitude_law_at(n); n++)
-        for (int i = 0; i < 100; i++) {
+        for (int i = 0; i < 100 && has_no_file(attitude_law_at(n)); i++) {
             const attitude_law *law = attitude_law_at(n);
             double turn[9], before[9], after[9], transposed[9], want[9];
             if (string_equal(law->name, "inertial")) continue;
@@ -453,7 +459,7 @@ START_TEST(test_attitude_every_offset_turns_the_body_about_its_axis)
 {
     uint64_t state = 3;
     for (size_t n = 0; attitude_law_at(n); n++)
-        for (int i = 0; i < 50; i++) {
+        for (int i = 0; i < 50 && has_no_file(attitude_law_at(n)); i++) {
             attitude_spec spec = random_spec(attitude_law_at(n), &state);
             const moment m = random_moment(&state);
             double law[9], off[9], axis[3], pole[3], other[3], turn[9], got[3], want[3];

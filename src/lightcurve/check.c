@@ -32,8 +32,8 @@ static void report_time(const glint_scenario *s, text *t)
     char *line = fact_orbit(s);
     text_printf(t, "orbit       %s\n", line ? line : "");
     free(line);
-    text_printf(t, "attitude    %s%s\n", s->attitude.law->name,
-                s->attitude.has_offset ? ", with an offset" : "");
+    text_add(t, "attitude    ");
+    attitude_plan_describe(&s->attitude, "            ", t);
 }
 
 static void report_hinge(const hinge *h, text *t)
@@ -42,6 +42,9 @@ static void report_hinge(const hinge *h, text *t)
         text_printf(t, "fixed at %g deg", (h->angle + h->offset) / DEG);
     else if (h->drive == HINGE_RATE)
         text_printf(t, "turns at %g deg/s", h->rate_rad_s / DEG);
+    else if (h->drive == HINGE_TABLE)
+        text_printf(t, "by a table of %ld angles from %.10g to %.10g s", h->table.n,
+                    h->table.t_s[0], h->table.t_s[h->table.n - 1]);
     else if (h->target.kind < DIRECTION_STAR)
         text_printf(t, "tracks %s", direction_word((size_t)h->target.kind));
     else

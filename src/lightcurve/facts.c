@@ -2,6 +2,7 @@
 
 #include "base/constants.h"
 #include "base/text.h"
+#include "orbit/attitude_table.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -86,6 +87,28 @@ static uint64_t hash_satellite(uint64_t hash, const satellite *sat, int n_bands)
                       (size_t)polygons->n_vertices * sizeof *polygons->vertices);
 }
 
+/* Attitudes and angles that came from files of their own. */
+static uint64_t hash_motion(uint64_t hash, const glint_scenario *s)
+{
+    for (int k = 0; k < s->attitude.n; k++) {
+        const attitude_table *t = s->attitude.legs[k].law.table;
+        if (!t) continue;
+        hash = hash_bytes(hash, t->t_s, (size_t)t->n * sizeof *t->t_s);
+        hash = hash_bytes(hash, t->q, (size_t)t->n * sizeof *t->q);
+        for (int i = 0; i < t->n_spans; i++) {
+            const double span[] = {t->spans[i].frame, t->spans[i].from_s, t->spans[i].to_s};
+            hash = hash_bytes(hash, span, sizeof span);
+        }
+    }
+    for (int c = 0; c < s->satellite.n_components; c++) {
+        const hinge_table *t = &s->satellite.components[c].hinge.table;
+        if (t->n == 0) continue;
+        hash = hash_bytes(hash, t->t_s, (size_t)t->n * sizeof *t->t_s);
+        hash = hash_bytes(hash, t->angle, (size_t)t->n * sizeof *t->angle);
+    }
+    return hash;
+}
+
 /* Of all that decides the result: the files, what was set, the element set, the directions. */
 static uint64_t scenario_hash(const glint_scenario *s)
 {
@@ -95,6 +118,7 @@ static uint64_t scenario_hash(const glint_scenario *s)
     for (size_t i = 0; i < s->n_overrides; i++)
         hash = hash_text(hash, s->overrides[i]);
     hash = hash_satellite(hash, &s->satellite, s->n_bands);
+    hash = hash_motion(hash, s);
     if (!s->has_geometry && s->orbit_source == ORBIT_TLE) {
         const double elements[] = {
             s->tle.epoch_jd[0],         s->tle.epoch_jd[1],  s->tle.bstar,
@@ -159,6 +183,32 @@ static void add_bands(const glint_scenario *s, fact_list *out)
     if (!s->has_extinction) add(out, "extinction", "none");
 }
 
+/* One fact for each law, and what is taken for granted between given attitudes. */
+static void add_attitude(const glint_scenario *s, fact_list *out)
+{
+    text lines = {0};
+    bool slews = false, tables = false;
+    attitude_plan_describe(&s->attitude, "", &lines);
+    if (lines.failed) out->failed = true;
+    for (char *line = lines.data, *end; line && (end = strchr(line, '\n')); line = end + 1) {
+        *end = '\0';
+        add(out, "attitude", "%s", line);
+    }
+    text_free(&lines);
+    for (int k = 0; k < s->attitude.n; k++) {
+        slews = slews || s->attitude.legs[k].slew_s > 0;
+        tables = tables || s->attitude.legs[k].law.table;
+    }
+    if (slews)
+        add(out, "attitude_slews",
+            "at a steady share of the turn between the two laws, by the "
+            "shorter way when the slew begins; no wheel ramps up or down");
+    if (tables)
+        add(out, "attitude_tables",
+            "between rows by the shortest way at a steady rate; nothing is "
+            "read outside their spans");
+}
+
 static void add_time(const glint_scenario *s, fact_list *out)
 {
     char dut1[NUMBER_SIZE + 1];
@@ -172,6 +222,7 @@ static void add_time(const glint_scenario *s, fact_list *out)
     char *line = fact_orbit(s);
     add(out, "orbit", "%s", line ? line : "");
     free(line);
+    add_attitude(s, out);
     add(out, "light_time", s->light_time ? "yes" : "no");
     add(out, "aberration", s->aberration ? "yes, of the Sun" : "no");
     add(out, "eclipse", "WGS84 ellipsoid, uniform solar disc, no refraction in the atmosphere");

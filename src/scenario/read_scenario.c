@@ -425,7 +425,7 @@ static bool wants_moon(const glint_scenario *s)
             s->satellite.components[c].hinge.drive == HINGE_TRACK &&
             s->satellite.components[c].hinge.target.kind == DIRECTION_MOON)
             return true;
-    return attitude_wants(&s->attitude, DIRECTION_MOON);
+    return attitude_plan_wants(&s->attitude, DIRECTION_MOON);
 }
 
 static bool names_satellite(reader *root)
@@ -595,6 +595,7 @@ void glint_scenario_free(glint_scenario *s)
     if (!s) return;
     expectations_free(s);
     satellite_free(&s->satellite);
+    attitude_plan_free(&s->attitude);
     orbit_free(s->orbit);
     free(s->geometry.sun);
     free(s->geometry.observer);
