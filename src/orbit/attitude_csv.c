@@ -40,8 +40,11 @@ void attitude_csv_read(table_reading *r, table_frame frame, place asked_from)
 {
     csv_table csv;
     int column[4];
-    r->status = csv_read(r->table->path, asked_from, &csv, r->errors);
-    if (r->status) return;
+    const glint_status read = csv_read(r->table->path, asked_from, &csv, r->errors);
+    if (read) {
+        r->status = read;
+        return;
+    }
     csv_leave_out_cut_row(&csv, r->errors);
     double *t_s = calloc((size_t)csv.n_rows + 1, sizeof *t_s);
     if (!t_s) {

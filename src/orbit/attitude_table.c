@@ -7,6 +7,7 @@
 #include "orbit/attitude_table_parts.h"
 #include "orbit/ccsds.h"
 #include "orbit/frames.h"
+#include "orbit/time_column.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -196,7 +197,7 @@ static void order_spans(table_reading *r)
     attitude_table *t = r->table;
     if (t->n_spans) qsort(t->spans, (size_t)t->n_spans, sizeof *t->spans, by_time);
     for (int k = 1; k < t->n_spans; k++)
-        if (t->spans[k].from_s < t->spans[k - 1].to_s)
+        if (t->spans[k].from_s < t->spans[k - 1].to_s - TIME_SLACK_S)
             table_fail(r, t->spans[k].where,
                        "the usable time of this segment begins %g s before that of the segment at "
                        "line %d ends; expected segments that do not overlap",
@@ -296,8 +297,8 @@ static const table_span *span_at(const attitude_table *t, double t_s)
         else
             hi = middle;
     }
-    if (lo > 0 && t_s <= t->spans[lo - 1].to_s) return &t->spans[lo - 1];
-    if (lo < t->n_spans && t_s >= t->spans[lo].from_s - TABLE_LEAD_S) return &t->spans[lo];
+    if (lo > 0 && t_s <= t->spans[lo - 1].to_s + TIME_SLACK_S) return &t->spans[lo - 1];
+    if (lo < t->n_spans && t_s >= t->spans[lo].from_s - TIME_LEAD_S) return &t->spans[lo];
     return NULL;
 }
 
@@ -388,11 +389,11 @@ bool attitude_table_gap(const attitude_table *t, double from_s, double to_s, dou
 {
     double covered_s = from_s;
     for (int k = 0; k < t->n_spans; k++) {
-        if (t->spans[k].from_s - TABLE_LEAD_S > covered_s) break;
+        if (t->spans[k].from_s - TIME_LEAD_S > covered_s) break;
         covered_s = fmax(covered_s, t->spans[k].to_s);
     }
     *gap_s = covered_s;
-    return covered_s < to_s;
+    return covered_s < to_s - TIME_SLACK_S;
 }
 
 /* -------------------------------------------------------------------- the law */

@@ -32,10 +32,6 @@ typedef struct attitude_table {
     int n_spans;
 } attitude_table;
 
-/* Light leaves the satellite before it arrives, and a table of the observer's times begins when it
- * arrives: a span's first interval is drawn out backwards by this many s (0.3 s of light are
- * 90 000 km). */
-#define TABLE_LEAD_S 0.3
 /* Most that the norm of a quaternion may differ from 1: three decimals in a file leave 1e-3. */
 #define TABLE_NORM_TOLERANCE 2e-3
 

@@ -111,7 +111,7 @@ static double track_angle(const hinge *h, const double target_parent[3])
 static glint_status table_angle(const hinge_table *t, double t_s, double *angle, glint_error *error)
 {
     long lo = 0, hi = t->n - 1;
-    if (!(t_s >= t->t_s[lo] - HINGE_LEAD_S && t_s <= t->t_s[hi]))
+    if (!(t_s >= t->t_s[lo] - TIME_LEAD_S && t_s <= t->t_s[hi] + TIME_SLACK_S))
         return error_set(error, GLINT_INPUT, PLACE_NONE,
                          "a hinge's table says nothing at %.10g s from the start: it goes from "
                          "%.10g to %.10g s; expected one that covers the run",

@@ -46,10 +46,6 @@ glint_status hinge_set_table(hinge *h, const char *path, bool shortest_way, cons
 /* Frees what a hinge owns. */
 void hinge_free(hinge *h);
 
-/* Light leaves the satellite before it arrives, and a table of the observer's times begins when it
- * arrives: the first interval is drawn out backwards by this many s (of light: 90 000 km). */
-#define HINGE_LEAD_S 0.3
-
 /* The angle in rad, at t_s; target_parent: unit direction in the parent's axes (HINGE_TRACK only,
  * else NULL). delta = atan2(s.(a x n0), s.n0), or straight between the rows of the table; then +
  * offset, then clamped; a direction along the axis (within 1e-9) gives 0, since no angle is better

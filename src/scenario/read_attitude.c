@@ -3,6 +3,7 @@
 #include "base/vec.h"
 #include "orbit/attitude_table.h"
 #include "orbit/moon.h"
+#include "orbit/time_column.h"
 #include "scenario/reading.h"
 
 #include <math.h>
@@ -378,7 +379,8 @@ static void read_hinge_table(reading *rd, reader *r, hinge *out)
     free(path);
     if (status > r->status) r->status = status;
     const hinge_table *t = &out->table;
-    if (!status && has_span && (t->t_s[0] - HINGE_LEAD_S > from_s || t->t_s[t->n - 1] < to_s))
+    if (!status && has_span &&
+        (t->t_s[0] - TIME_LEAD_S > from_s || t->t_s[t->n - 1] + TIME_SLACK_S < to_s))
         errors_warn(rd->errors, file->where,
                     "the table goes from %.10g to %.10g s, the run from %.10g to %.10g s; a run "
                     "that has rows outside the table ends with an error",
