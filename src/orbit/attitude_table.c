@@ -118,6 +118,7 @@ void table_add_row(table_reading *r, double t_s, const double q[4], place where)
         if (angle > r->widest_rad) {
             r->widest_rad = angle;
             r->widest_where = where;
+            r->widest_where.file = t->path; /* outlives the reader of the file */
         }
     }
     t->n++;
