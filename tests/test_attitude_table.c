@@ -311,6 +311,45 @@ START_TEST(test_attitude_table_aem_euler_and_quaternions_of_another_program)
 }
 END_TEST
 
+/* The names of XML and the words of version 1.0, in a second program's file: the turn is from the
+ * body to LVLH, so that its conjugate is wanted. */
+START_TEST(test_attitude_table_aem_xml_of_another_program)
+{
+    static const double first[4] = {0.4886148886986714, -0.40215690839288926, 0.5816278675112939,
+                                    0.5111108835743206};
+    const char *dir = reference_dir("an AEM in XML of another program");
+    if (!dir) return;
+    attitude_table *t =
+        read_sound_table(path_in(dir, "samples/aem_v1_quaternion_derivative_lvlh.xml"), NULL);
+    ck_assert_int_eq(t->spans[0].frame, TABLE_LVLH);
+    ck_assert_int_eq(t->n, 7);
+    assert_near(t->q[0][0], first[0], 1e-9); /* norm 1 to 1e-9 */
+    for (int i = 1; i < 4; i++)
+        assert_near(t->q[0][i], -first[i], 1e-9);
+    for (long k = 1; k < t->n; k++)
+        assert_near(t->t_s[k] - t->t_s[k - 1], 0.5, 1e-6); /* 2021 counted from 2024: 1e-8 s */
+    attitude_table_free(t);
+}
+END_TEST
+
+/* Version 1.0 in keywords, two segments about another planet: inertial axes do not mind. */
+START_TEST(test_attitude_table_aem_keywords_of_another_program)
+{
+    static const double first[4] = {0.68427, 0.56748, 0.03146, 0.45689};
+    const char *dir = reference_dir("an AEM in keywords of another program");
+    if (!dir) return;
+    attitude_table *t =
+        read_sound_table(path_in(dir, "samples/aem_v1_quaternion_last_A2B.aem"), NULL);
+    ck_assert_int_eq(t->n_spans, 2);
+    ck_assert_int_eq(t->n, 8);
+    for (int i = 0; i < 4; i++)
+        assert_near(t->q[0][i], first[i], 1e-5); /* five decimals, made unit */
+    /* the first span is usable from 22:08:02.5555 to 01:18:02.5555 two days later */
+    assert_near(t->spans[0].to_s - t->spans[0].from_s, 27 * 3600 + 10 * 60, 1e-6);
+    attitude_table_free(t);
+}
+END_TEST
+
 /* A free tumble with 34 digits, through an STK file of its quaternions. */
 static void check_tumble(const char *path)
 {
@@ -566,8 +605,9 @@ END_TEST
 
 START_TEST(test_attitude_table_usable_times_narrow_the_span)
 {
-    static const char CONTENT[] = AEM_HEAD("2.0") AEM_META(
-        TO_BODY, "USEABLE_START_TIME = 2024-01-01T12:00:10\n"
+    static const char CONTENT[] = AEM_HEAD("2.0")
+        AEM_META(TO_BODY,
+                 "USEABLE_START_TIME = 2024-01-01T12:00:10\n"
                  "USEABLE_STOP_TIME = 2024-01-01T12:00:30\n"
                  "ATTITUDE_TYPE = QUATERNION\n") "DATA_START\n2024-01-01T12:00:00 0 0 0 "
                                                  "1\n2024-01-01T12:00:40 0 0 0.6 0.8\nDATA_STOP\n";
@@ -589,7 +629,7 @@ START_TEST(test_attitude_table_chooses_among_objects)
         "ATTITUDE_TYPE = QUATERNION\n") "DATA_START\n2024-01-01T12:00:00 0 0 0 1\nDATA_STOP\n"
                                         "META_START\nOBJECT_NAME = LID\nOBJECT_ID = "
                                         "2024-001B\n" TO_BODY "\nTIME_SYSTEM = UTC\nATTITUDE_TYPE "
-                                                              "= QUATERNION\nMETA_STOP\n"
+                                        "= QUATERNION\nMETA_STOP\n"
                                         "DATA_START\n2024-01-01T12:00:00 0 0 1 0\nDATA_STOP\n";
     const char *path = write_file("two.aem", CONTENT);
     assert_file_wrong("two.aem", CONTENT, 19, "choose with the key 'object'");
@@ -800,6 +840,8 @@ static Suite *table_suite(void)
     tcase_add_test(tests, test_attitude_table_aem_euler_angles_are_turns_of_the_frame);
     tcase_add_test(tests, test_attitude_table_aem_spin_axis_and_angle);
     tcase_add_test(tests, test_attitude_table_aem_euler_and_quaternions_of_another_program);
+    tcase_add_test(tests, test_attitude_table_aem_xml_of_another_program);
+    tcase_add_test(tests, test_attitude_table_aem_keywords_of_another_program);
     tcase_add_test(tests, test_attitude_table_stk_rows_match_reference);
     tcase_add_test(tests, test_attitude_table_stk_file_is_the_torque_free_rotation);
     tcase_add_test(tests, test_attitude_table_teme_matches_reference);

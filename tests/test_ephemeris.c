@@ -149,19 +149,20 @@ START_TEST(test_ephemeris_follows_sequences_and_tables)
     static const double AFTER_S[] = {0, 20, 50}, SHARE[] = {0, 0.25, 1};
     for (int k = 0; k < 3; k++) { /* the row at 0 s, and the sequence that long before */
         char text[TEXT_SIZE];
-        snprintf(text, sizeof text,
-                 "[time]\nstart = \"%s\"\nduration_s = 60\nstep_s = %g\n[observer]\n"
-                 "latitude_deg = 48\nlongitude_deg = 16\n[orbit]\ntle_lines = [%s]\n"
-                 "[[attitude]]\nlaw = \"table\"\nfile = \"rest.csv\"\n"
-                 "[[attitude]]\nfrom = 10\nslew_s = 40\nlaw = \"table\"\nfile = \"turn.csv\"\n"
-                 "[corrections]\nlight_time = false\n[materials.m]\nbrdf = \"lambert\"\nrho = 1\n"
-                 "[[component]]\nname = \"inner\"\nhinge = { origin_m = [0, 0, 0], axis = [1, 0, 0], "
-                 "table = \"inner.csv\" }\n[[component]]\nname = \"outer\"\nparent = \"inner\"\n"
-                 "hinge = { origin_m = [0, 0, 0], axis = [0, 1, 0], table = \"outer.csv\", "
-                 "shortest_way = true, offset_deg = 5, limits_deg = [-7, 370] }\n"
-                 "[[component.plate]]\nsize_m = [1, 1]\nnormal = [0, 0, 1]\ntangent = [1, 0, 0]\n"
-                 "material = \"m\"\n",
-                 STARTS, k == 0 ? 60 : AFTER_S[k], ISS_LINES);
+        snprintf(
+            text, sizeof text,
+            "[time]\nstart = \"%s\"\nduration_s = 60\nstep_s = %g\n[observer]\n"
+            "latitude_deg = 48\nlongitude_deg = 16\n[orbit]\ntle_lines = [%s]\n"
+            "[[attitude]]\nlaw = \"table\"\nfile = \"rest.csv\"\n"
+            "[[attitude]]\nfrom = 10\nslew_s = 40\nlaw = \"table\"\nfile = \"turn.csv\"\n"
+            "[corrections]\nlight_time = false\n[materials.m]\nbrdf = \"lambert\"\nrho = 1\n"
+            "[[component]]\nname = \"inner\"\nhinge = { origin_m = [0, 0, 0], axis = [1, 0, 0], "
+            "table = \"inner.csv\" }\n[[component]]\nname = \"outer\"\nparent = \"inner\"\n"
+            "hinge = { origin_m = [0, 0, 0], axis = [0, 1, 0], table = \"outer.csv\", "
+            "shortest_way = true, offset_deg = 5, limits_deg = [-7, 370] }\n"
+            "[[component.plate]]\nsize_m = [1, 1]\nnormal = [0, 0, 1]\ntangent = [1, 0, 0]\n"
+            "material = \"m\"\n",
+            STARTS, k == 0 ? 60 : AFTER_S[k], ISS_LINES);
         glint_scenario *s = read_sound(write_file("sequence.toml", text));
         glint_ephemeris *e;
         const glint_ephemeris_row *rows;

@@ -120,6 +120,14 @@ static glint_status turn_components(const satellite *sat, const moment *m,
     return GLINT_OK;
 }
 
+double satellite_next_change(const glint_scenario *s, double t_s)
+{
+    double next_s = attitude_plan_next_change(&s->attitude, t_s);
+    for (int c = 0; c < s->satellite.n_components; c++)
+        next_s = fmin(next_s, hinge_next_change(&s->satellite.components[c].hinge, t_s));
+    return next_s;
+}
+
 glint_status satellite_turn(const glint_scenario *s, const moment *m, double body_gcrs[9],
                             double (*component_gcrs)[9], double *hinge_rad, glint_error *error)
 {

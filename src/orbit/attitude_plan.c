@@ -37,8 +37,7 @@ static void way_between(const double from_gcrs[9], const double to_gcrs[9], doub
     quat_from_mat(to_from, way);
 }
 
-/* Leg k of the sequence at a moment: the law before it through body_before, its own through
- * body_own, and the way between them. */
+/* The law before leg k at a moment, and the way from there to the leg's own. */
 static glint_status both_laws(const attitude_plan *plan, int k, const moment *m,
                               double before_gcrs[9], double way[4], glint_error *error)
 {
@@ -97,6 +96,19 @@ bool attitude_plan_wants(const attitude_plan *plan, direction_kind kind)
     for (int k = 0; k < plan->n; k++)
         if (attitude_wants(&plan->legs[k].law, kind)) return true;
     return false;
+}
+
+double attitude_plan_next_change(const attitude_plan *plan, double t_s)
+{
+    double next_s = INFINITY;
+    for (int k = 0; k < plan->n; k++) {
+        const attitude_leg *leg = &plan->legs[k];
+        if (k > 0 && leg->from_s > t_s) next_s = fmin(next_s, leg->from_s);
+        if (k > 0 && leg->from_s + leg->slew_s > t_s)
+            next_s = fmin(next_s, leg->from_s + leg->slew_s);
+        if (leg->law.table) next_s = fmin(next_s, attitude_table_next_row(leg->law.table, t_s));
+    }
+    return next_s;
 }
 
 void attitude_plan_describe(const attitude_plan *plan, const char *indent, text *out)

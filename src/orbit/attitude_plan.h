@@ -40,6 +40,9 @@ glint_status attitude_plan_at(const attitude_plan *plan, const moment *m, double
                               glint_error *error);
 /* True when some law looks at that direction. */
 bool attitude_plan_wants(const attitude_plan *plan, direction_kind kind);
+/* The first time after t_s at which the rates of turning may jump: a law or a slew begins or ends,
+ * a row of a table; INFINITY where there is none. */
+double attitude_plan_next_change(const attitude_plan *plan, double t_s);
 /* One line for each leg, the ends of lines included; `indent` before all but the first. */
 void attitude_plan_describe(const attitude_plan *plan, const char *indent, struct text *out);
 /* The first moment of the run, from 0 to end_s, at which leg k is in use and its table says

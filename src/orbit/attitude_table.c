@@ -54,9 +54,8 @@ void table_begin_span(table_reading *r, file_frame frame, place where)
     }
     t->spans = spans;
     where.file = t->path;
-    /* Until the span ends, `from_s` keeps which axes the file has. */
-    spans[t->n_spans++] =
-        (table_span){.first = t->n, .from_s = (double)frame, .where = where, .to_s = INFINITY};
+    spans[t->n_spans++] = (table_span){.first = t->n, .where = where};
+    r->frame = frame;
 }
 
 static bool make_room(table_reading *r)
@@ -167,7 +166,6 @@ void table_end_span(table_reading *r, double from_s, double to_s)
     attitude_table *t = r->table;
     if (t->n_spans == 0 || r->status) return;
     table_span *span = &t->spans[t->n_spans - 1];
-    const file_frame frame = (file_frame)span->from_s;
     if (span->n == 0) {
         table_fail(r, span->where, "no attitude stands here; expected one row or more");
         return;
@@ -178,9 +176,9 @@ void table_end_span(table_reading *r, double from_s, double to_s)
         table_fail(r, span->where, "the rows lie outside the usable time of their segment");
         return;
     }
-    span->frame = frame <= FILE_ITRS ? (table_frame)frame : TABLE_GCRS;
-    if (frame == FILE_EME2000) turn_from_eme2000(t, span);
-    if (frame == FILE_TEME) turn_from_teme(r, span);
+    span->frame = r->frame <= FILE_ITRS ? (table_frame)r->frame : TABLE_GCRS;
+    if (r->frame == FILE_EME2000) turn_from_eme2000(t, span);
+    if (r->frame == FILE_TEME) turn_from_teme(r, span);
 }
 
 /* ----------------------------------------------------------------- reading */
@@ -376,6 +374,19 @@ glint_status attitude_table_at(const attitude_table *t, const moment *m, double 
     }
     if (!status) mat_mul(body_gcrs, frame_gcrs, body_gcrs);
     return status;
+}
+
+double attitude_table_next_row(const attitude_table *t, double t_s)
+{
+    double next_s = INFINITY;
+    for (int i = 0; i < t->n_spans; i++) {
+        const table_span *span = &t->spans[i];
+        const long last = span->first + span->n - 1;
+        if (t->t_s[last] <= t_s) continue;
+        const long k = row_before(t, span, t_s);
+        next_s = fmin(next_s, t->t_s[k] > t_s ? t->t_s[k] : t->t_s[k + 1]);
+    }
+    return next_s;
 }
 
 void attitude_table_describe(const attitude_table *t, text *out)

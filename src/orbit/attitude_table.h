@@ -51,6 +51,9 @@ void attitude_table_free(attitude_table *t);
  * Errors (GLINT_INPUT): no span covers the moment, saying which are nearest. */
 glint_status attitude_table_at(const attitude_table *t, const moment *m, double body_gcrs[9],
                                glint_error *error);
+/* The first time after t_s at which a row stands, and the rates may change; INFINITY past the last.
+ */
+double attitude_table_next_row(const attitude_table *t, double t_s);
 /* "CCSDS AEM 'file', 2 spans from t_s = 0 to 600 s". */
 void attitude_table_describe(const attitude_table *t, struct text *out);
 /* The first moment between from_s and to_s that no span covers, through *gap_s; false where all are

@@ -20,6 +20,7 @@ typedef struct table_reading {
     const run_clock *clock; /* borrowed */
     glint_errors *errors;
     glint_status status; /* the worst so far */
+    file_frame frame;    /* of the span being read */
     /* the two rows of one span between which the body turns most, by the shortest way */
     double widest_rad;
     place widest_where;

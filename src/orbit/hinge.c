@@ -107,6 +107,28 @@ static double track_angle(const hinge *h, const double target_parent[3])
     return hypot(c, s) > DIRECTION_PARALLEL ? atan2(s, c) : 0.0;
 }
 
+/* Last row, but for the very last one, that is not after t_s; the first one before that. */
+static long row_before(const hinge_table *t, double t_s)
+{
+    long lo = 0, hi = t->n - 1;
+    while (hi - lo > 1) {
+        const long middle = lo + (hi - lo) / 2;
+        if (t->t_s[middle] <= t_s)
+            lo = middle;
+        else
+            hi = middle;
+    }
+    return lo;
+}
+
+double hinge_next_change(const hinge *h, double t_s)
+{
+    const hinge_table *t = &h->table;
+    if (h->drive != HINGE_TABLE || !(t_s < t->t_s[t->n - 1])) return INFINITY;
+    const long k = row_before(t, t_s);
+    return t->t_s[k] > t_s ? t->t_s[k] : t->t_s[k + 1];
+}
+
 /* Straight between the rows. */
 static glint_status table_angle(const hinge_table *t, double t_s, double *angle, glint_error *error)
 {
@@ -116,13 +138,8 @@ static glint_status table_angle(const hinge_table *t, double t_s, double *angle,
                          "a hinge's table says nothing at %.10g s from the start: it goes from "
                          "%.10g to %.10g s; expected one that covers the run",
                          t_s, t->t_s[lo], t->t_s[hi]);
-    while (hi - lo > 1) {
-        const long middle = lo + (hi - lo) / 2;
-        if (t->t_s[middle] <= t_s)
-            lo = middle;
-        else
-            hi = middle;
-    }
+    lo = row_before(t, t_s);
+    hi = lo + 1 < t->n ? lo + 1 : lo;
     *angle = t->angle[lo];
     if (hi > lo)
         *angle += (t->angle[hi] - t->angle[lo]) * ((t_s - t->t_s[lo]) / (t->t_s[hi] - t->t_s[lo]));

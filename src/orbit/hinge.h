@@ -52,6 +52,9 @@ void hinge_free(hinge *h);
  * than another. Errors (GLINT_INPUT): the table does not cover the moment. */
 glint_status hinge_angle(const hinge *h, double t_s, const double target_parent[3], double *angle,
                          glint_error *error);
+/* The first time after t_s at which a row of its table stands, and its rate may jump; INFINITY
+ * where there is none. */
+double hinge_next_change(const hinge *h, double t_s);
 /* component_parent: v_component = R v_parent. */
 void hinge_matrix(const hinge *h, double angle, double component_parent[9]);
 
