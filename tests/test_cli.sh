@@ -325,6 +325,55 @@ empty "$err"
 t 'check goes on after a wrong file' 1 check broken.toml plate.toml absent.toml
 has "$out" plate.toml
 has "$err" broken.toml:1:1: absent.toml
+cat >moves.toml <<'END'
+[time]
+start = 2025-07-25T20:37:00Z
+duration_s = 60
+step_s = 10
+[observer]
+latitude_deg = 48.2
+longitude_deg = 16.37
+[orbit]
+circular = { height_km = 780, inclination_deg = 98.6, raan_deg = 80, argument_of_latitude_deg = 132 }
+[[attitude]]
+law = "table"
+file = "turn.csv"
+[[attitude]]
+from = 2025-07-25T20:37:20Z
+slew_s = 15
+law = "nadir"
+nadir = "geodetic"
+[satellite]
+model = "moves-model.toml"
+END
+cat >moves-model.toml <<'END'
+[materials.white]
+brdf = "lambert"
+rho = 0.5
+[[component]]
+name = "wing"
+hinge = { origin_m = [0, 1, 0], axis = [0, 1, 0], table = "angles.csv" }
+[[component.plate]]
+size_m = [1, 1]
+normal = [0, 0, 1]
+tangent = [1, 0, 0]
+material = "white"
+END
+printf 't_s,qw,qx,qy,qz\n0,1,0,0,0\n40,0.8,0,0,0.6\n' >turn.csv
+printf 'utc,angle_deg\n2025-07-25T20:37:00Z,0\n2025-07-25T20:38:00Z,90\n' >angles.csv
+t 'check of motions' 0 check moves.toml moves-model.toml
+has "$out" "attitude    table: CSV table 'turn.csv', 2 rows from 0 to 40 s" \
+    'from 20 s by a slew of 15 s to nadir, geodetic' 'by a table of 2 angles from 0 to 60 s' \
+    'by a table of 2 angles over 60 s'
+empty "$err"
+t 'run of motions' 0 run moves.toml
+has "$out" "# - attitude: \"table: CSV table 'turn.csv', 2 rows from 0 to 40 s\"" \
+    '# - attitude: "from 20 s by a slew of 15 s to nadir, geodetic"' '# - attitude_slews:' \
+    '# - attitude_tables:'
+t 'check of a table that is too short' 0 check moves.toml --set 'attitude.1={from=50,law="nadir"}'
+has "$err" 'the attitude table says nothing at 40 s from the start'
+t 'run beyond a table' 1 run moves.toml --set 'attitude.1={from=50,law="nadir"}'
+has "$err" 'says nothing at' 'it ends at 40 s'
 t 'verify' 0 verify good.toml
 lines "$out" 1
 has "$out" 'ok    good.toml: 2 expectations'

@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "brdf/table.h"
+#include "orbit/attitude_table.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -109,6 +110,28 @@ static uint64_t hash_orbit(uint64_t hash, const scenario_orbit *o)
     return hash;
 }
 
+/* Attitudes and angles that came from files of their own. */
+static uint64_t hash_motion(uint64_t hash, const glint_scenario *s)
+{
+    for (int k = 0; k < s->attitude.n; k++) {
+        const attitude_table *t = s->attitude.legs[k].law.table;
+        if (!t) continue;
+        hash = hash_bytes(hash, t->t_s, (size_t)t->n * sizeof *t->t_s);
+        hash = hash_bytes(hash, t->q, (size_t)t->n * sizeof *t->q);
+        for (int i = 0; i < t->n_spans; i++) {
+            const double span[] = {t->spans[i].frame, t->spans[i].from_s, t->spans[i].to_s};
+            hash = hash_bytes(hash, span, sizeof span);
+        }
+    }
+    for (int c = 0; c < s->satellite.n_components; c++) {
+        const hinge_table *t = &s->satellite.components[c].hinge.table;
+        if (t->n == 0) continue;
+        hash = hash_bytes(hash, t->t_s, (size_t)t->n * sizeof *t->t_s);
+        hash = hash_bytes(hash, t->angle, (size_t)t->n * sizeof *t->angle);
+    }
+    return hash;
+}
+
 /* Of all that decides the result: the files, what was set, the element set, the directions. */
 static uint64_t scenario_hash(const glint_scenario *s)
 {
@@ -119,6 +142,7 @@ static uint64_t scenario_hash(const glint_scenario *s)
         hash = hash_text(hash, s->overrides[i]);
     hash = hash_satellite(hash, &s->satellite, s->n_bands);
     if (!s->has_geometry) hash = hash_orbit(hash, &s->orbit);
+    hash = hash_motion(hash, s);
     if (s->has_geometry) {
         const size_t n = (size_t)s->geometry.n;
         hash = hash_bytes(hash, s->geometry.sun, n * sizeof *s->geometry.sun);
@@ -146,6 +170,32 @@ static void add_bands(const glint_scenario *s, fact_list *out)
     if (!s->has_extinction) add(out, "extinction", "none");
 }
 
+/* One fact for each law, and what is taken for granted between given attitudes. */
+static void add_attitude(const glint_scenario *s, fact_list *out)
+{
+    text lines = {0};
+    bool slews = false, tables = false;
+    attitude_plan_describe(&s->attitude, "", &lines);
+    if (lines.failed) out->failed = true;
+    for (char *line = lines.data, *end; line && (end = strchr(line, '\n')); line = end + 1) {
+        *end = '\0';
+        add(out, "attitude", "%s", line);
+    }
+    text_free(&lines);
+    for (int k = 0; k < s->attitude.n; k++) {
+        slews = slews || s->attitude.legs[k].slew_s > 0;
+        tables = tables || s->attitude.legs[k].law.table;
+    }
+    if (slews)
+        add(out, "attitude_slews",
+            "at a steady share of the turn between the two laws, by the "
+            "shorter way when the slew begins; no wheel ramps up or down");
+    if (tables)
+        add(out, "attitude_tables",
+            "between rows by the shortest way at a steady rate; nothing is "
+            "read outside their spans");
+}
+
 static void add_time(const glint_scenario *s, fact_list *out)
 {
     char dut1[NUMBER_SIZE + 1];
@@ -162,6 +212,7 @@ static void add_time(const glint_scenario *s, fact_list *out)
     char *sets = fact_element_sets(s, &s->orbit);
     if (sets) add(out, "element_sets", "%s", sets);
     free(sets);
+    add_attitude(s, out);
     add(out, "light_time", s->light_time ? "yes" : "no");
     add(out, "aberration", s->aberration ? "yes, of the Sun" : "no");
     add(out, "eclipse", "WGS84 ellipsoid, uniform solar disc, no refraction in the atmosphere");

@@ -50,6 +50,10 @@ glint_status geometry_fill_at(const glint_scenario *s, const frame_grid *grid, u
                               const double *t_s, int n, geometry_worker *worker, tile_geometry *out,
                               brdf_light *lights, glint_error *error);
 
+/* The first time after t_s, both of emission, at which the rates of the body or of a hinge may
+ * jump; INFINITY where there is none. */
+double satellite_next_change(const glint_scenario *s, double t_s);
+
 /* Orientation of every component at one moment, and the angles of their hinges (rad; 0 without
  * one). component_gcrs, hinge_rad (NULL allowed): n_components. Errors (GLINT_INPUT): attitude or a
  * hinge's target not defined. */

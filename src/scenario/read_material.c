@@ -462,6 +462,7 @@ static void warn_of_spectra(reading *rd, const scenario_material *material, cons
 void refuse_mirrors(reading *rd)
 {
     const glint_scenario *s = rd->s;
+    if (s->solar_disc != SOLAR_POINT) return;
     for (int m = 0; m < s->satellite.n_materials; m++) {
         const scenario_material *material = &s->satellite.materials[m];
         bool found = false;
@@ -472,8 +473,8 @@ void refuse_mirrors(reading *rd)
             reading_note(rd, errors_add(rd->errors, GLINT_INPUT, material->where,
                                         "material '%s' is a perfect mirror, which shows the Sun's "
                                         "disc, and the Sun is a point here (solar_disc = "
-                                        "\"point\"); expected a narrow lobe such as brdf = "
-                                        "\"ward-gmd\"",
+                                        "\"point\"); expected solar_disc = \"uniform\", or a "
+                                        "narrow lobe such as brdf = \"ward-gmd\"",
                                         material->name));
     }
 }

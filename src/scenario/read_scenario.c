@@ -422,7 +422,7 @@ static bool wants_moon(const glint_scenario *s)
             s->satellite.components[c].hinge.drive == HINGE_TRACK &&
             s->satellite.components[c].hinge.target.kind == DIRECTION_MOON)
             return true;
-    return attitude_wants(&s->attitude, DIRECTION_MOON);
+    return attitude_plan_wants(&s->attitude, DIRECTION_MOON);
 }
 
 static bool names_satellite(reader *root)
@@ -598,6 +598,7 @@ void glint_scenario_free(glint_scenario *s)
     expectations_free(s);
     satellite_free(&s->satellite);
     scenario_orbit_free(&s->orbit);
+    attitude_plan_free(&s->attitude);
     free(s->geometry.sun);
     free(s->geometry.observer);
     free(s->geometry.range_m);

@@ -5,7 +5,7 @@
 #include "base/band.h"
 #include "base/csv.h"
 #include "facets/model.h"
-#include "orbit/attitude.h"
+#include "orbit/attitude_plan.h"
 #include "orbit/earth.h"
 #include "orbit/hinge.h"
 #include "orbit/orbit.h"
@@ -145,7 +145,7 @@ struct glint_scenario {
     scenario_orbit orbit;
 
     bool has_attitude, has_satellite; /* false only where they may be absent, and are */
-    attitude attitude;
+    attitude_plan attitude;
     bool needs_moon; /* attitude or a hinge asks for the Moon */
     satellite satellite;
     self_shadows self_shadows;
