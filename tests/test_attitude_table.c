@@ -803,7 +803,7 @@ static void check_damage(const char *content)
     char *bytes = malloc(size);
     uint64_t state = 7;
     ck_assert_ptr_nonnull(bytes);
-    for (int round = 0; round < 1500; round++) {
+    for (int round = 0; round < 400; round++) {
         memcpy(bytes, content, size);
         for (int k = 0; k <= round % 4; k++) {
             const size_t at = (size_t)((next_random(&state) + 1) / 2 * (double)(size - 1));
