@@ -432,7 +432,7 @@ static double mirror_angle_at(const glint_ephemeris_row *row, const frame_grid *
 }
 
 /* The box flashes as often as looking at every hundredth of a second says, at least so often. */
-static void check_flashes(const char *attitude, size_t least)
+static void check_flashes(const char *laws, size_t least)
 {
     static const double LIMIT = 3 * DEG;
     static const double NORMALS[6][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
@@ -440,7 +440,7 @@ static void check_flashes(const char *attitude, size_t least)
     const char *parts[N_PARTS];
     memcpy(parts, SOUND, sizeof parts);
     parts[PART_TIME] = "[time]\nstart = 2025-07-25T20:33:00Z\nduration_s = 400\nstep_s = 0.01\n";
-    parts[PART_ATTITUDE] = attitude;
+    parts[PART_ATTITUDE] = laws;
     parts[PART_MATERIAL] = "[materials.white]\nbrdf = \"ward-gmd\"\nrho_d = 0.1\nrho_s = 0.5\n"
                            "alpha_x = 0.05\nalpha_y = 0.05\n";
     const marked_text m = with_part(parts, PART_TOP, "");
@@ -489,17 +489,15 @@ START_TEST(test_passes_find_all_flashes_of_fast_slews)
     static const char *const LAWS[2] = {
         "axis = [0, 0, 1]\nto = \"sun\"\nsecond_axis = [1, 0, 0]\nsecond_to = \"observer\"\n",
         "axis = [0, 0, 1]\nto = \"observer\"\nsecond_axis = [-1, 0, 0]\nsecond_to = \"sun\"\n"};
-    char attitude[TEXT_SIZE];
+    char laws[TEXT_SIZE];
     int n = 0;
     for (int k = 0; k < 20; k++) {
-        n += snprintf(attitude + n, sizeof attitude - (size_t)n, "[[attitude]]\n");
+        n += snprintf(laws + n, sizeof laws - (size_t)n, "[[attitude]]\n");
         if (k > 0)
-            n += snprintf(attitude + n, sizeof attitude - (size_t)n, "from = %d\nslew_s = 1\n",
-                          20 * k);
-        n +=
-            snprintf(attitude + n, sizeof attitude - (size_t)n, "law = \"point\"\n%s", LAWS[k % 2]);
+            n += snprintf(laws + n, sizeof laws - (size_t)n, "from = %d\nslew_s = 1\n", 20 * k);
+        n += snprintf(laws + n, sizeof laws - (size_t)n, "law = \"point\"\n%s", LAWS[k % 2]);
     }
-    check_flashes(attitude, 10);
+    check_flashes(laws, 10);
 }
 END_TEST
 

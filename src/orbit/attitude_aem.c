@@ -71,7 +71,7 @@ static const char *const idle_names[] = {"INTERPOLATION_METHOD", "INTERPOLATION_
 
 /* A message being read. */
 typedef struct aem_reading {
-    table_reading *r;
+    attitude_reading *r;
     ccsds_file file;
     const char *object; /* NULL: not said */
     bool is_v1;
@@ -142,10 +142,11 @@ static bool read_frames(aem_reading *a)
                b_local = !b_known && is_local(second->value);
     if (!(a_known && b_local) && !(a_local && b_known)) {
         const ccsds_item *wrong = a_known || a_local ? second : first;
-        table_fail(a->r, at_item(a, wrong),
-                   "REF_FRAME_A and REF_FRAME_B are '%.40s' and '%.40s'; expected the body "
-                   "(SC_BODY, SC_BODY_1) and one of EME2000, ICRF, GCRF, TEME, ITRF..., LVLH, RTN",
-                   first->value, second->value);
+        attitude_table_fail(
+            a->r, at_item(a, wrong),
+            "REF_FRAME_A and REF_FRAME_B are '%.40s' and '%.40s'; expected the body "
+            "(SC_BODY, SC_BODY_1) and one of EME2000, ICRF, GCRF, TEME, ITRF..., LVLH, RTN",
+            first->value, second->value);
         return false;
     }
     a->a_is_body = a_local;
@@ -159,9 +160,9 @@ static bool read_frames(aem_reading *a)
     const ccsds_item *centre = a->meta[META_CENTER];
     const bool orbital = a->frame == FILE_LVLH || a->frame == FILE_RSW || a->frame == FILE_ITRS;
     if (orbital && centre && !ccsds_says(centre, "EARTH")) {
-        table_fail(a->r, at_item(a, centre),
-                   "CENTER_NAME is '%.40s', and the attitude refers to it; expected EARTH",
-                   centre->value);
+        attitude_table_fail(a->r, at_item(a, centre),
+                            "CENTER_NAME is '%.40s', and the attitude refers to it; expected EARTH",
+                            centre->value);
         return false;
     }
     return true;
@@ -173,8 +174,8 @@ static bool read_direction(aem_reading *a)
     const ccsds_item *dir = a->meta[META_DIR];
     a->back = dir && ccsds_says(dir, "B2A");
     if (dir && !a->back && !ccsds_says(dir, "A2B")) {
-        table_fail(a->r, at_item(a, dir), "ATTITUDE_DIR is '%.40s'; expected A2B or B2A",
-                   dir->value);
+        attitude_table_fail(a->r, at_item(a, dir), "ATTITUDE_DIR is '%.40s'; expected A2B or B2A",
+                            dir->value);
         return false;
     }
     return true;
@@ -193,8 +194,9 @@ static bool read_sequence(aem_reading *a)
         good = good && (k == 0 || a->axes[k] != a->axes[k - 1]);
     }
     if (!good)
-        table_fail(a->r, at_item(a, item),
-                   "EULER_ROT_SEQ is '%.40s'; expected three axes such as 321 or ZXZ", item->value);
+        attitude_table_fail(a->r, at_item(a, item),
+                            "EULER_ROT_SEQ is '%.40s'; expected three axes such as 321 or ZXZ",
+                            item->value);
     return good;
 }
 
@@ -203,8 +205,8 @@ static bool read_scalar_place(aem_reading *a)
     const ccsds_item *item = a->meta[META_QUATERNION_TYPE];
     a->scalar_first = item && ccsds_says(item, "FIRST");
     if (item && !a->scalar_first && !ccsds_says(item, "LAST")) {
-        table_fail(a->r, at_item(a, item), "QUATERNION_TYPE is '%.40s'; expected FIRST or LAST",
-                   item->value);
+        attitude_table_fail(a->r, at_item(a, item),
+                            "QUATERNION_TYPE is '%.40s'; expected FIRST or LAST", item->value);
         return false;
     }
     return true;
@@ -217,16 +219,18 @@ static bool read_type(aem_reading *a)
     for (int k = 0; k < N_TYPES && !a->type; k++)
         if (ccsds_says(item, types[k].name)) a->type = &types[k];
     if (!a->type) {
-        table_fail(a->r, at_item(a, item),
-                   "ATTITUDE_TYPE is '%.40s'; expected QUATERNION, EULER_ANGLE (alone, or with "
-                   "/DERIVATIVE, /RATE or /ANGVEL) or SPIN",
-                   item->value);
+        attitude_table_fail(
+            a->r, at_item(a, item),
+            "ATTITUDE_TYPE is '%.40s'; expected QUATERNION, EULER_ANGLE (alone, or with "
+            "/DERIVATIVE, /RATE or /ANGVEL) or SPIN",
+            item->value);
         return false;
     }
     if (a->type->refused) {
-        table_fail(a->r, at_item(a, item),
-                   "ATTITUDE_TYPE %s is not read: %s; expected QUATERNION, EULER_ANGLE or SPIN",
-                   a->type->name, a->type->refused);
+        attitude_table_fail(
+            a->r, at_item(a, item),
+            "ATTITUDE_TYPE %s is not read: %s; expected QUATERNION, EULER_ANGLE or SPIN",
+            a->type->name, a->type->refused);
         return false;
     }
     return true;
@@ -271,12 +275,12 @@ static bool has_all(aem_reading *a, place where)
     bool good = true;
     for (size_t k = 0; k < sizeof always / sizeof *always; k++)
         if (!a->meta[always[k]]) {
-            table_fail(a->r, where, "this segment has no %s; expected one in its metadata",
-                       meta_names[always[k]]);
+            attitude_table_fail(a->r, where, "this segment has no %s; expected one in its metadata",
+                                meta_names[always[k]]);
             good = false;
         }
     if (a->is_v1 && !a->meta[META_DIR]) {
-        table_fail(a->r, where, "this segment has no ATTITUDE_DIR; expected A2B or B2A");
+        attitude_table_fail(a->r, where, "this segment has no ATTITUDE_DIR; expected A2B or B2A");
         good = false;
     }
     return good;
@@ -288,19 +292,21 @@ static bool read_of_type(aem_reading *a, place where)
     if (!read_type(a)) return false;
     if (a->type->kind == AEM_QUATERNION && a->is_v1 && !a->file.is_xml &&
         !a->meta[META_QUATERNION_TYPE]) {
-        table_fail(a->r, where,
-                   "this segment has no QUATERNION_TYPE; expected FIRST or LAST, "
-                   "which says where the scalar stands");
+        attitude_table_fail(a->r, where,
+                            "this segment has no QUATERNION_TYPE; expected FIRST or LAST, "
+                            "which says where the scalar stands");
         return false;
     }
     if (a->type->kind == AEM_EULER && !a->meta[META_EULER]) {
-        table_fail(a->r, where, "this segment has no EULER_ROT_SEQ; expected axes such as 321");
+        attitude_table_fail(a->r, where,
+                            "this segment has no EULER_ROT_SEQ; expected axes such as 321");
         return false;
     }
     if (a->type->kind == AEM_EULER && a->is_v1 && a->file.is_xml) {
-        table_fail(a->r, at_item(a, a->meta[META_TYPE]),
-                   "Euler angles in the XML of version 1.0, which names axes and order twice, are "
-                   "not read; expected version 2.0, the keyword notation, or quaternions");
+        attitude_table_fail(
+            a->r, at_item(a, a->meta[META_TYPE]),
+            "Euler angles in the XML of version 1.0, which names axes and order twice, are "
+            "not read; expected version 2.0, the keyword notation, or quaternions");
         return false;
     }
     return read_scalar_place(a) && (a->type->kind != AEM_EULER || read_sequence(a));
@@ -315,10 +321,11 @@ static bool is_of_object(aem_reading *a)
         return strcasecmp(a->object, name->value) == 0 || strcasecmp(a->object, id->value) == 0;
     if (!a->first_object) a->first_object = id;
     if (string_equal(a->first_object->value, id->value)) return true;
-    table_fail(a->r, at_item(a, id),
-               "this segment is of the object '%.40s', an earlier one of '%.40s'; choose with the "
-               "key 'object'",
-               id->value, a->first_object->value);
+    attitude_table_fail(
+        a->r, at_item(a, id),
+        "this segment is of the object '%.40s', an earlier one of '%.40s'; choose with the "
+        "key 'object'",
+        id->value, a->first_object->value);
     return false;
 }
 
@@ -331,7 +338,7 @@ static void end_metadata(aem_reading *a, place where)
                times = read_times(a);
     if (!type || !frames || !way || !times) return;
     a->wanted = a->open = true;
-    table_begin_span(a->r, a->frame, where);
+    attitude_table_begin_span(a->r, a->frame, where);
 }
 
 static void take_metadata(aem_reading *a, const ccsds_item *item)
@@ -339,8 +346,8 @@ static void take_metadata(aem_reading *a, const ccsds_item *item)
     for (int k = 0; k < N_META; k++) {
         if (!string_equal(item->keyword, meta_names[k])) continue;
         if (a->meta[k])
-            table_fail(a->r, at_item(a, item), "%s stands twice in the metadata of a segment",
-                       item->keyword);
+            attitude_table_fail(a->r, at_item(a, item),
+                                "%s stands twice in the metadata of a segment", item->keyword);
         a->meta[k] = item;
         return;
     }
@@ -405,7 +412,7 @@ static void add_row(aem_reading *a, const aem_row *row)
         return;
     }
     quaternion_of(a, row->numbers, q);
-    table_add_row(a->r, jd_difference_s(tt_jd, a->r->clock->tt_jd), q, row->at);
+    attitude_table_add_row(a->r, jd_difference_s(tt_jd, a->r->clock->tt_jd), q, row->at);
 }
 
 /* A row in keyword notation: the time and its numbers, cut at blanks. The item's text is ours to
@@ -426,15 +433,16 @@ static void take_line(aem_reading *a, const ccsds_item *item)
             snprintf(time, sizeof time, "%.*s", (int)(length < 63 ? length : 63), at);
             row.time = time;
         } else if (n <= MOST_NUMBERS && !number_read(at, length, &row.numbers[n - 1])) {
-            table_fail(a->r, where, "'%.*s' stands here; expected a finite number",
-                       (int)(length < 40 ? length : 40), at);
+            attitude_table_fail(a->r, where, "'%.*s' stands here; expected a finite number",
+                                (int)(length < 40 ? length : 40), at);
             return;
         }
         at += length;
     }
     if (n != a->type->n_numbers + 1) {
-        table_fail(a->r, row.at, "this row has %d words; expected a time and %d numbers, as %s has",
-                   n, a->type->n_numbers, a->type->name);
+        attitude_table_fail(a->r, row.at,
+                            "this row has %d words; expected a time and %d numbers, as %s has", n,
+                            a->type->n_numbers, a->type->name);
         return;
     }
     if (a->type->kind == AEM_QUATERNION && a->scalar_first) {
@@ -461,7 +469,7 @@ static void take_element(aem_reading *a, const ccsds_item *item, aem_row *row)
     int n;
     const char *const *names = names_of(a->type->kind, &n);
     if (string_equal(item->keyword, "EPOCH")) {
-        if (row->time) table_fail(a->r, at_item(a, item), "EPOCH stands twice in one row");
+        if (row->time) attitude_table_fail(a->r, at_item(a, item), "EPOCH stands twice in one row");
         row->time = item->value;
         row->at = at_item(a, item);
         return;
@@ -469,7 +477,8 @@ static void take_element(aem_reading *a, const ccsds_item *item, aem_row *row)
     for (int k = 0; k < n; k++) {
         if (!string_equal(item->keyword, names[k])) continue;
         if (row->has[k])
-            table_fail(a->r, at_item(a, item), "%s stands twice in one row", item->keyword);
+            attitude_table_fail(a->r, at_item(a, item), "%s stands twice in one row",
+                                item->keyword);
         row->has[k] = true;
         const glint_status status =
             ccsds_number(&a->file, item, a->type->kind == AEM_QUATERNION ? NULL : "deg",
@@ -484,11 +493,12 @@ static void end_element_row(aem_reading *a, const aem_row *row, place where)
     int n;
     const char *const *names = names_of(a->type->kind, &n);
     bool complete = row->time != NULL;
-    if (!complete) table_fail(a->r, where, "this attitude has no EPOCH; expected its time");
+    if (!complete)
+        attitude_table_fail(a->r, where, "this attitude has no EPOCH; expected its time");
     for (int k = 0; k < n; k++)
         if (!row->has[k]) {
-            table_fail(a->r, where, "this attitude has no %s; expected it, as %s has", names[k],
-                       a->type->name);
+            attitude_table_fail(a->r, where, "this attitude has no %s; expected it, as %s has",
+                                names[k], a->type->name);
             complete = false;
         }
     if (complete) add_row(a, row);
@@ -502,21 +512,21 @@ static void check_version(aem_reading *a)
     for (size_t k = 0; k < a->file.count && !version; k++)
         if (a->file.items[k].kind == CCSDS_VALUE) version = &a->file.items[k];
     if (!version || strncmp(version->keyword, "CCSDS_", 6) != 0) {
-        table_fail(a->r, (place){a->file.path, 1, 1},
-                   "this is no message of the CCSDS; expected an AEM, which begins with "
-                   "CCSDS_AEM_VERS");
+        attitude_table_fail(a->r, (place){a->file.path, 1, 1},
+                            "this is no message of the CCSDS; expected an AEM, which begins with "
+                            "CCSDS_AEM_VERS");
         return;
     }
     if (!string_equal(version->keyword, "CCSDS_AEM_VERS")) {
-        table_fail(a->r, at_item(a, version),
-                   "this message begins with %.40s; expected attitudes: CCSDS_AEM_VERS",
-                   version->keyword);
+        attitude_table_fail(a->r, at_item(a, version),
+                            "this message begins with %.40s; expected attitudes: CCSDS_AEM_VERS",
+                            version->keyword);
         return;
     }
     a->is_v1 = string_equal(version->value, "1.0");
     if (!a->is_v1 && !string_equal(version->value, "2.0"))
-        table_fail(a->r, at_item(a, version), "CCSDS_AEM_VERS is '%.40s'; expected 1.0 or 2.0",
-                   version->value);
+        attitude_table_fail(a->r, at_item(a, version),
+                            "CCSDS_AEM_VERS is '%.40s'; expected 1.0 or 2.0", version->value);
 }
 
 /* Where in a message the reading is. */
@@ -525,14 +535,15 @@ typedef enum aem_part { IN_HEADER, IN_METADATA, IN_DATA } aem_part;
 static aem_part begin_block(aem_reading *a, const ccsds_item *item, aem_part part)
 {
     if (string_equal(item->keyword, "METADATA")) {
-        if (a->open) table_fail(a->r, at_item(a, item), "the segment before this one has no data");
+        if (a->open)
+            attitude_table_fail(a->r, at_item(a, item), "the segment before this one has no data");
         memset(a->meta, 0, sizeof a->meta);
         a->wanted = a->open = false;
         return IN_METADATA;
     }
     if (string_equal(item->keyword, "DATA")) {
         if (!a->meta[META_TYPE] && !a->r->status)
-            table_fail(a->r, at_item(a, item), "data begin without metadata before them");
+            attitude_table_fail(a->r, at_item(a, item), "data begin without metadata before them");
         return IN_DATA;
     }
     return part;
@@ -553,7 +564,7 @@ static void take_item(aem_reading *a, const ccsds_item *item, aem_part *part, ae
         else if (*part == IN_DATA && is_row && a->wanted)
             end_element_row(a, row, row->at);
         else if (*part == IN_DATA && string_equal(item->keyword, "DATA") && a->wanted) {
-            table_end_span(a->r, a->from_s, a->to_s);
+            attitude_table_end_span(a->r, a->from_s, a->to_s);
             a->open = false;
         }
         if (string_equal(item->keyword, "METADATA") || string_equal(item->keyword, "DATA"))
@@ -563,22 +574,24 @@ static void take_item(aem_reading *a, const ccsds_item *item, aem_part *part, ae
         if (*part == IN_METADATA)
             take_metadata(a, item);
         else if (*part == IN_DATA && !a->file.is_xml)
-            table_fail(a->r, where, "%.40s stands among the data; expected rows of numbers",
-                       item->keyword);
+            attitude_table_fail(a->r, where,
+                                "%.40s stands among the data; expected rows of numbers",
+                                item->keyword);
         else if (*part == IN_DATA && a->wanted)
             take_element(a, item, row);
         break;
     case CCSDS_LINE:
         if (*part != IN_DATA)
-            table_fail(a->r, where, "'%.40s' stands outside the data; expected KEYWORD = value",
-                       item->value);
+            attitude_table_fail(a->r, where,
+                                "'%.40s' stands outside the data; expected KEYWORD = value",
+                                item->value);
         else if (a->wanted)
             take_line(a, item);
         break;
     }
 }
 
-void attitude_aem_read(table_reading *r, char *bytes, size_t size, const char *object)
+void attitude_aem_read(attitude_reading *r, char *bytes, size_t size, const char *object)
 {
     aem_reading a = {.r = r, .object = object};
     aem_part part = IN_HEADER;
@@ -594,11 +607,12 @@ void attitude_aem_read(table_reading *r, char *bytes, size_t size, const char *o
     for (size_t k = 0; k < a.file.count && readable && r->status != GLINT_INTERNAL; k++)
         take_item(&a, &a.file.items[k], &part, &row);
     if (readable && (part != IN_HEADER || a.open))
-        table_fail(r, (place){r->table->path, last_line, 0},
-                   "the file ends before its last segment does: it is cut off; get it again");
+        attitude_table_fail(
+            r, (place){r->table->path, last_line, 0},
+            "the file ends before its last segment does: it is cut off; get it again");
     else if (readable && !r->status && r->table->n_spans == 0 && object)
-        table_fail(r, (place){r->table->path, 0, 0},
-                   "no segment is of the object '%.40s'; expected its OBJECT_NAME or OBJECT_ID",
-                   object);
+        attitude_table_fail(
+            r, (place){r->table->path, 0, 0},
+            "no segment is of the object '%.40s'; expected its OBJECT_NAME or OBJECT_ID", object);
     ccsds_free(&a.file);
 }

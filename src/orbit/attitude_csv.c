@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void read_rows(table_reading *r, const csv_table *csv, const int column[4],
+static void read_rows(attitude_reading *r, const csv_table *csv, const int column[4],
                       const double *t_s)
 {
     for (long row = 0; row < csv->n_rows; row++) {
@@ -17,26 +17,27 @@ static void read_rows(table_reading *r, const csv_table *csv, const int column[4
                 r->status = GLINT_INPUT;
                 good = false;
             }
-        if (good) table_add_row(r, t_s[row], q, csv_place(csv, csv_at(csv, row, column[0])));
+        if (good)
+            attitude_table_add_row(r, t_s[row], q, csv_place(csv, csv_at(csv, row, column[0])));
     }
 }
 
-static bool find_columns(table_reading *r, const csv_table *csv, int column[4])
+static bool find_columns(attitude_reading *r, const csv_table *csv, int column[4])
 {
     static const char *const names[4] = {"qw", "qx", "qy", "qz"};
     bool good = true;
     for (int i = 0; i < 4; i++) {
         column[i] = csv_column(csv, names[i]);
         if (column[i] >= 0) continue;
-        table_fail(r, csv_place(csv, &csv->cells[0]),
-                   "the table has no column '%s'; expected t_s or utc, and qw, qx, qy, qz",
-                   names[i]);
+        attitude_table_fail(r, csv_place(csv, &csv->cells[0]),
+                            "the table has no column '%s'; expected t_s or utc, and qw, qx, qy, qz",
+                            names[i]);
         good = false;
     }
     return good;
 }
 
-void attitude_csv_read(table_reading *r, attitude_frame frame, place asked_from)
+void attitude_csv_read(attitude_reading *r, attitude_frame frame, place asked_from)
 {
     csv_table csv;
     int column[4];
@@ -53,9 +54,9 @@ void attitude_csv_read(table_reading *r, attitude_frame frame, place asked_from)
         const glint_status status = time_column_read(&csv, r->clock, t_s, r->errors);
         if (status) r->status = status;
         if (status == GLINT_OK) {
-            table_begin_span(r, (file_frame)frame, csv_place(&csv, &csv.cells[0]));
+            attitude_table_begin_span(r, (file_frame)frame, csv_place(&csv, &csv.cells[0]));
             read_rows(r, &csv, column, t_s);
-            table_end_span(r, -INFINITY, INFINITY);
+            attitude_table_end_span(r, -INFINITY, INFINITY);
         }
     }
     free(t_s);

@@ -26,7 +26,7 @@ static const char *const idle_words[] = {"InterpolationOrder", "InterpolationMet
                                          "BlockingFactor", "MessageLevel"};
 
 typedef struct stk_reading {
-    table_reading *r;
+    attitude_reading *r;
     char *line; /* the current one, terminated, blanks taken off */
     int number; /* of the current line */
     int column; /* where it begins */
@@ -72,10 +72,10 @@ static void read_epoch(stk_reading *s, const char *value)
     while (good && k < 12 && strncasecmp(months + 3 * k, month, 3) != 0)
         k++;
     if (!good || k == 12) {
-        table_fail(s->r, here(s, value),
-                   "ScenarioEpoch is '%.40s'; expected a UTC time such as 1 Jan 2024 "
-                   "12:00:00.000",
-                   value);
+        attitude_table_fail(s->r, here(s, value),
+                            "ScenarioEpoch is '%.40s'; expected a UTC time such as 1 Jan 2024 "
+                            "12:00:00.000",
+                            value);
         return;
     }
     snprintf(iso, sizeof iso, "%04d-%02d-%02dT%s", year, k + 1, day, clock);
@@ -103,9 +103,9 @@ static void read_axes(stk_reading *s, const char *value)
             s->has_axes = true;
             return;
         }
-    table_fail(s->r, here(s, value),
-               "CoordinateAxes is '%.40s'; expected ICRF, Inertial, J2000, TEMEOfDate or Fixed",
-               value);
+    attitude_table_fail(
+        s->r, here(s, value),
+        "CoordinateAxes is '%.40s'; expected ICRF, Inertial, J2000, TEMEOfDate or Fixed", value);
 }
 
 static void read_count(stk_reading *s, const char *value)
@@ -114,8 +114,8 @@ static void read_count(stk_reading *s, const char *value)
     if (number_read(value, strlen(value), &n) && n >= 0 && n <= 1e9 && n == (double)(long)n)
         s->announced = (long)n;
     else
-        table_fail(s->r, here(s, value),
-                   "NumberOfAttitudePoints is '%.40s'; expected a whole number", value);
+        attitude_table_fail(s->r, here(s, value),
+                            "NumberOfAttitudePoints is '%.40s'; expected a whole number", value);
 }
 
 /* A line that begins the rows of one form or another. True when it is one. */
@@ -125,18 +125,18 @@ static bool begin_rows(stk_reading *s, const char *word, size_t n)
         if (is_word(word, n, forms[k].name)) s->form = &forms[k];
     if (!s->form) {
         if (n < 12 || strncasecmp(word, "AttitudeTime", 12) != 0) return false;
-        table_fail(s->r, here(s, word),
-                   "rows of the form %.*s are not read; expected AttitudeTimeQuaternions, "
-                   "AttitudeTimeQuatScalarFirst or AttitudeTimeQuatAngVels",
-                   (int)(n < 60 ? n : 60), word);
+        attitude_table_fail(s->r, here(s, word),
+                            "rows of the form %.*s are not read; expected AttitudeTimeQuaternions, "
+                            "AttitudeTimeQuatScalarFirst or AttitudeTimeQuatAngVels",
+                            (int)(n < 60 ? n : 60), word);
         s->ended = true; /* nothing after this can be read */
         return true;
     }
     if (!s->has_epoch)
-        table_fail(s->r, here(s, word), "the rows begin, and there was no ScenarioEpoch");
+        attitude_table_fail(s->r, here(s, word), "the rows begin, and there was no ScenarioEpoch");
     if (!s->has_axes)
-        table_fail(s->r, here(s, word), "the rows begin, and there was no CoordinateAxes");
-    table_begin_span(s->r, s->frame, here(s, word));
+        attitude_table_fail(s->r, here(s, word), "the rows begin, and there was no CoordinateAxes");
+    attitude_table_begin_span(s->r, s->frame, here(s, word));
     return true;
 }
 
@@ -153,15 +153,17 @@ static void take_keyword(stk_reading *s)
         read_count(s, value);
     else if (is_word(word, n, "CentralBody")) {
         if (strcasecmp(value, "Earth") != 0)
-            table_fail(s->r, here(s, value), "CentralBody is '%.40s'; expected Earth", value);
+            attitude_table_fail(s->r, here(s, value), "CentralBody is '%.40s'; expected Earth",
+                                value);
     } else if (!begin_rows(s, word, n)) {
         for (size_t k = 0; k < sizeof idle_words / sizeof *idle_words; k++)
             if (is_word(word, n, idle_words[k])) return;
-        table_fail(s->r, here(s, word),
-                   "'%.*s' is not a keyword that is read here; expected ScenarioEpoch, "
-                   "CentralBody, CoordinateAxes, NumberOfAttitudePoints, Interpolation..., or one "
-                   "of the forms of rows",
-                   (int)(n < 40 ? n : 40), word);
+        attitude_table_fail(
+            s->r, here(s, word),
+            "'%.*s' is not a keyword that is read here; expected ScenarioEpoch, "
+            "CentralBody, CoordinateAxes, NumberOfAttitudePoints, Interpolation..., or one "
+            "of the forms of rows",
+            (int)(n < 40 ? n : 40), word);
     }
 }
 
@@ -175,21 +177,21 @@ static void take_row(stk_reading *s)
         double *out = count == 0 ? &t_s : &numbers[count - 1];
         if (count > s->form->n_numbers) continue;
         if (!number_read(word, n, out)) {
-            table_fail(s->r, here(s, word), "'%.*s' stands here; expected a finite number",
-                       (int)(n < 40 ? n : 40), word);
+            attitude_table_fail(s->r, here(s, word), "'%.*s' stands here; expected a finite number",
+                                (int)(n < 40 ? n : 40), word);
             return;
         }
     }
     if (count != s->form->n_numbers + 1) {
-        table_fail(s->r, here(s, s->line),
-                   "this row has %d numbers; expected %d: a time and those of %s", count,
-                   s->form->n_numbers + 1, s->form->name);
+        attitude_table_fail(s->r, here(s, s->line),
+                            "this row has %d numbers; expected %d: a time and those of %s", count,
+                            s->form->n_numbers + 1, s->form->name);
         return;
     }
     const int first = s->form->scalar == 0 ? 1 : 0;
     const double q[4] = {numbers[s->form->scalar], numbers[first], numbers[first + 1],
                          numbers[first + 2]};
-    table_add_row(s->r, s->epoch_s + t_s, q, here(s, s->line));
+    attitude_table_add_row(s->r, s->epoch_s + t_s, q, here(s, s->line));
     s->n++;
 }
 
@@ -203,7 +205,7 @@ static void take_line(stk_reading *s)
     else if (is_word(word, n, "END") && is_word(next, m, "Attitude"))
         s->ended = true;
     else if (!s->begun)
-        table_fail(s->r, here(s, word), "'%.40s' stands before BEGIN Attitude", s->line);
+        attitude_table_fail(s->r, here(s, word), "'%.40s' stands before BEGIN Attitude", s->line);
     else if (s->form)
         take_row(s);
     else
@@ -215,24 +217,26 @@ static void finish(stk_reading *s)
 {
     const place end = {s->r->table->path, s->number, 0};
     if (!s->ended)
-        table_fail(s->r, end,
-                   "the file ends without its END Attitude: it is cut off; get it again");
+        attitude_table_fail(s->r, end,
+                            "the file ends without its END Attitude: it is cut off; get it again");
     else if (!s->form && !s->r->status)
-        table_fail(s->r, end, "there are no rows of attitudes; expected AttitudeTimeQuaternions");
+        attitude_table_fail(s->r, end,
+                            "there are no rows of attitudes; expected AttitudeTimeQuaternions");
     else if (s->announced >= 0 && s->n != s->announced && !s->r->status)
-        table_fail(s->r, end,
-                   "NumberOfAttitudePoints is %ld, and the file has %ld rows: it is damaged; get "
-                   "it again",
-                   s->announced, s->n);
-    if (s->form) table_end_span(s->r, -INFINITY, INFINITY);
+        attitude_table_fail(
+            s->r, end,
+            "NumberOfAttitudePoints is %ld, and the file has %ld rows: it is damaged; get "
+            "it again",
+            s->announced, s->n);
+    if (s->form) attitude_table_end_span(s->r, -INFINITY, INFINITY);
 }
 
-void attitude_stk_read(table_reading *r, char *bytes, size_t size)
+void attitude_stk_read(attitude_reading *r, char *bytes, size_t size)
 {
     stk_reading s = {.r = r, .announced = -1};
     if (memchr(bytes, '\0', size)) {
-        table_fail(r, (place){r->table->path, 0, 0},
-                   "this is not a text file; expected an attitude file of STK");
+        attitude_table_fail(r, (place){r->table->path, 0, 0},
+                            "this is not a text file; expected an attitude file of STK");
         free(bytes);
         return;
     }

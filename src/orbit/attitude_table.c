@@ -27,7 +27,7 @@ void attitude_table_free(attitude_table *t)
 
 /* -------------------------------------------------------------- building one */
 
-void table_fail(table_reading *r, place where, const char *format, ...)
+void attitude_table_fail(attitude_reading *r, place where, const char *format, ...)
 {
     char message[1024];
     va_list args;
@@ -38,27 +38,27 @@ void table_fail(table_reading *r, place where, const char *format, ...)
     if (status > r->status) r->status = status;
 }
 
-static void no_memory(table_reading *r)
+static void no_memory(attitude_reading *r)
 {
     if (r->status != GLINT_INTERNAL)
         r->status = errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
 }
 
-void table_begin_span(table_reading *r, file_frame frame, place where)
+void attitude_table_begin_span(attitude_reading *r, file_frame frame, place where)
 {
     attitude_table *t = r->table;
-    table_span *spans = realloc(t->spans, (size_t)(t->n_spans + 1) * sizeof *spans);
+    attitude_span *spans = realloc(t->spans, (size_t)(t->n_spans + 1) * sizeof *spans);
     if (!spans) {
         no_memory(r);
         return;
     }
     t->spans = spans;
     where.file = t->path;
-    spans[t->n_spans++] = (table_span){.first = t->n, .where = where};
+    spans[t->n_spans++] = (attitude_span){.first = t->n, .where = where};
     r->frame = frame;
 }
 
-static bool make_room(table_reading *r)
+static bool make_room(attitude_reading *r)
 {
     attitude_table *t = r->table;
     if (t->n < t->capacity) return true;
@@ -84,28 +84,29 @@ static double angle_between(const double a[4], const double b[4])
     return 2 * atan2(norm3(way + 1), fabs(way[0]));
 }
 
-void table_add_row(table_reading *r, double t_s, const double q[4], place where)
+void attitude_table_add_row(attitude_reading *r, double t_s, const double q[4], place where)
 {
     static const double FARTHEST_S = 2e9; /* 63 years: the years of UTC on both sides */
     attitude_table *t = r->table;
     const double norm = sqrt(quat_dot(q, q));
     if (t->n_spans == 0 || r->status == GLINT_INTERNAL) return;
-    table_span *span = &t->spans[t->n_spans - 1];
-    if (!(fabs(norm - 1) <= TABLE_NORM_TOLERANCE)) {
-        table_fail(r, where, "the quaternion has the norm %.6g; expected 1 within %g", norm,
-                   TABLE_NORM_TOLERANCE);
+    attitude_span *span = &t->spans[t->n_spans - 1];
+    if (!(fabs(norm - 1) <= ATTITUDE_NORM_TOLERANCE)) {
+        attitude_table_fail(r, where, "the quaternion has the norm %.6g; expected 1 within %g",
+                            norm, ATTITUDE_NORM_TOLERANCE);
         return;
     }
     if (!(fabs(t_s) <= FARTHEST_S)) {
-        table_fail(r, where, "this row lies %.4g s from the start of the run; expected at most %g",
-                   t_s, FARTHEST_S);
+        attitude_table_fail(r, where,
+                            "this row lies %.4g s from the start of the run; expected at most %g",
+                            t_s, FARTHEST_S);
         return;
     }
     if (span->n > 0 && !(t_s > t->t_s[t->n - 1])) {
-        table_fail(r, where,
-                   "this row lies %g s before the one above it; expected times that grow "
-                   "from row to row",
-                   t->t_s[t->n - 1] - t_s);
+        attitude_table_fail(r, where,
+                            "this row lies %g s before the one above it; expected times that grow "
+                            "from row to row",
+                            t->t_s[t->n - 1] - t_s);
         return;
     }
     if (!make_room(r)) return;
@@ -133,7 +134,7 @@ static void turn_rows(attitude_table *t, long first, long n, const double gcrs_f
         quat_mul(turn, t->q[k], t->q[k]);
 }
 
-static void turn_from_eme2000(attitude_table *t, const table_span *span)
+static void turn_from_eme2000(attitude_table *t, const attitude_span *span)
 {
     double eme2000_gcrs[9], gcrs_eme2000[9];
     frame_bias(eme2000_gcrs);
@@ -141,7 +142,7 @@ static void turn_from_eme2000(attitude_table *t, const table_span *span)
     turn_rows(t, span->first, span->n, gcrs_eme2000);
 }
 
-static void turn_from_teme(table_reading *r, const table_span *span)
+static void turn_from_teme(attitude_reading *r, const attitude_span *span)
 {
     attitude_table *t = r->table;
     const earth_orientation still = {0, 0};
@@ -161,22 +162,23 @@ static void turn_from_teme(table_reading *r, const table_span *span)
     frame_grid_free(grid);
 }
 
-void table_end_span(table_reading *r, double from_s, double to_s)
+void attitude_table_end_span(attitude_reading *r, double from_s, double to_s)
 {
     attitude_table *t = r->table;
     if (t->n_spans == 0 || r->status) return;
-    table_span *span = &t->spans[t->n_spans - 1];
+    attitude_span *span = &t->spans[t->n_spans - 1];
     if (span->n == 0) {
-        table_fail(r, span->where, "no attitude stands here; expected one row or more");
+        attitude_table_fail(r, span->where, "no attitude stands here; expected one row or more");
         return;
     }
     span->from_s = fmax(from_s, t->t_s[span->first]);
     span->to_s = fmin(to_s, t->t_s[t->n - 1]);
     if (!(span->from_s <= span->to_s)) {
-        table_fail(r, span->where, "the rows lie outside the usable time of their segment");
+        attitude_table_fail(r, span->where,
+                            "the rows lie outside the usable time of their segment");
         return;
     }
-    span->frame = r->frame <= FILE_ITRS ? (attitude_frame)r->frame : FROM_GCRS;
+    span->frame = r->frame <= FILE_ITRS ? (attitude_frame)r->frame : ATTITUDE_GCRS;
     if (r->frame == FILE_EME2000) turn_from_eme2000(t, span);
     if (r->frame == FILE_TEME) turn_from_teme(r, span);
 }
@@ -185,25 +187,26 @@ void table_end_span(table_reading *r, double from_s, double to_s)
 
 static int by_time(const void *a, const void *b)
 {
-    const table_span *p = a, *q = b;
+    const attitude_span *p = a, *q = b;
     if (p->from_s != q->from_s) return p->from_s < q->from_s ? -1 : 1;
     return p->to_s < q->to_s ? -1 : p->to_s > q->to_s;
 }
 
 /* Puts the spans in their order and refuses those that overlap. */
-static void order_spans(table_reading *r)
+static void order_spans(attitude_reading *r)
 {
     attitude_table *t = r->table;
     if (t->n_spans) qsort(t->spans, (size_t)t->n_spans, sizeof *t->spans, by_time);
     for (int k = 1; k < t->n_spans; k++)
         if (t->spans[k].from_s < t->spans[k - 1].to_s - TIME_SLACK_S)
-            table_fail(r, t->spans[k].where,
-                       "the usable time of this segment begins %g s before that of the segment at "
-                       "line %d ends; expected segments that do not overlap",
-                       t->spans[k - 1].to_s - t->spans[k].from_s, t->spans[k - 1].where.line);
+            attitude_table_fail(
+                r, t->spans[k].where,
+                "the usable time of this segment begins %g s before that of the segment at "
+                "line %d ends; expected segments that do not overlap",
+                t->spans[k - 1].to_s - t->spans[k].from_s, t->spans[k - 1].where.line);
 }
 
-static void warn_of_wide_steps(const table_reading *r)
+static void warn_of_wide_steps(const attitude_reading *r)
 {
     static const double WIDE_RAD = 0.5 * PI;
     if (!(r->widest_rad > WIDE_RAD)) return;
@@ -225,20 +228,20 @@ static const char *first_words(const char *bytes)
     }
 }
 
-static void read_kind(table_reading *r, const char *object, const attitude_frame *csv_frame,
+static void read_kind(attitude_reading *r, const char *object, const attitude_frame *csv_frame,
                       char *bytes, size_t size, place asked_from)
 {
     const char *begins = first_words(bytes);
     const bool is_stk = strncasecmp(begins, "stk.v", 5) == 0;
     const bool is_ccsds = ccsds_is_xml(bytes) || strncasecmp(begins, "CCSDS_", 6) == 0;
     if (object && !is_ccsds)
-        table_fail(r, asked_from,
-                   "'object' chooses among the objects of a CCSDS AEM, and this "
-                   "file is none; take the key out");
+        attitude_table_fail(r, asked_from,
+                            "'object' chooses among the objects of a CCSDS AEM, and this "
+                            "file is none; take the key out");
     if (csv_frame && (is_ccsds || is_stk))
-        table_fail(r, asked_from,
-                   "'frame' belongs to CSV tables, and this file names its axes "
-                   "itself; take the key out");
+        attitude_table_fail(r, asked_from,
+                            "'frame' belongs to CSV tables, and this file names its axes "
+                            "itself; take the key out");
     if (is_ccsds) {
         r->table->kind = "CCSDS AEM";
         attitude_aem_read(r, bytes, size, object);
@@ -248,13 +251,13 @@ static void read_kind(table_reading *r, const char *object, const attitude_frame
     } else {
         r->table->kind = "CSV table";
         free(bytes);
-        attitude_csv_read(r, csv_frame ? *csv_frame : FROM_GCRS, asked_from);
+        attitude_csv_read(r, csv_frame ? *csv_frame : ATTITUDE_GCRS, asked_from);
     }
 }
 
-glint_status attitude_table_read(const char *path, const char *object, const attitude_frame *csv_frame,
-                                 const run_clock *clock, place asked_from, attitude_table **out,
-                                 glint_errors *errors)
+glint_status attitude_table_read(const char *path, const char *object,
+                                 const attitude_frame *csv_frame, const run_clock *clock,
+                                 place asked_from, attitude_table **out, glint_errors *errors)
 {
     *out = NULL;
     char *bytes;
@@ -262,7 +265,7 @@ glint_status attitude_table_read(const char *path, const char *object, const att
     glint_error error;
     if (file_read(path, &bytes, &size, asked_from, &error))
         return errors_take(errors, &error, asked_from);
-    table_reading r = {.clock = clock, .errors = errors};
+    attitude_reading r = {.clock = clock, .errors = errors};
     r.table = calloc(1, sizeof *r.table);
     if (r.table) r.table->path = string_copy(path, strlen(path));
     if (!r.table || !r.table->path) {
@@ -273,7 +276,8 @@ glint_status attitude_table_read(const char *path, const char *object, const att
     read_kind(&r, object, csv_frame, bytes, size, asked_from);
     if (!r.status) order_spans(&r);
     if (!r.status && r.table->n == 0)
-        table_fail(&r, (place){r.table->path, 0, 0}, "the file has no attitudes; expected some");
+        attitude_table_fail(&r, (place){r.table->path, 0, 0},
+                            "the file has no attitudes; expected some");
     if (!r.status) warn_of_wide_steps(&r);
     if (r.status)
         attitude_table_free(r.table);
@@ -286,7 +290,7 @@ glint_status attitude_table_read(const char *path, const char *object, const att
 
 /* The span that a moment belongs to; NULL where there is none. Where two spans meet the later one
  * counts. */
-static const table_span *span_at(const attitude_table *t, double t_s)
+static const attitude_span *span_at(const attitude_table *t, double t_s)
 {
     int lo = 0, hi = t->n_spans; /* spans before lo begin at t_s or earlier, those from hi later */
     while (lo < hi) {
@@ -303,7 +307,7 @@ static const table_span *span_at(const attitude_table *t, double t_s)
 
 static glint_status outside(const attitude_table *t, double t_s, glint_error *error)
 {
-    const table_span *before = NULL, *after = NULL;
+    const attitude_span *before = NULL, *after = NULL;
     for (int k = 0; k < t->n_spans; k++) {
         if (t->spans[k].to_s < t_s) before = &t->spans[k];
         if (t->spans[k].from_s > t_s && !after) after = &t->spans[k];
@@ -323,7 +327,7 @@ static glint_status outside(const attitude_table *t, double t_s, glint_error *er
 }
 
 /* Last row of the span, but for its last one, that is not after t_s; its first one before that. */
-static long row_before(const attitude_table *t, const table_span *span, double t_s)
+static long row_before(const attitude_table *t, const attitude_span *span, double t_s)
 {
     long lo = span->first, hi = span->first + span->n - 1;
     while (hi - lo > 1) {
@@ -337,7 +341,8 @@ static long row_before(const attitude_table *t, const table_span *span, double t
 }
 
 /* The quaternion of a span at a moment: v_frame = q v_body q*. */
-static void quaternion_at(const attitude_table *t, const table_span *span, double t_s, double q[4])
+static void quaternion_at(const attitude_table *t, const attitude_span *span, double t_s,
+                          double q[4])
 {
     const long k = row_before(t, span, t_s);
     if (span->n == 1) {
@@ -352,7 +357,7 @@ glint_status attitude_table_at(const attitude_table *t, const moment *m, double 
                                glint_error *error)
 {
     static const attitude centred = {0}; /* the laws 'nadir' and 'rsw' without options */
-    const table_span *span = span_at(t, m->t_s);
+    const attitude_span *span = span_at(t, m->t_s);
     if (!span) return outside(t, m->t_s, error);
     double q[4], frame_body[9], frame_gcrs[9];
     quaternion_at(t, span, m->t_s, q);
@@ -360,15 +365,15 @@ glint_status attitude_table_at(const attitude_table *t, const moment *m, double 
     mat_transpose(frame_body, body_gcrs);
     glint_status status = GLINT_OK;
     switch (span->frame) {
-    case FROM_GCRS:
+    case ATTITUDE_GCRS:
         return GLINT_OK;
-    case FROM_LVLH:
+    case ATTITUDE_LVLH:
         status = attitude_nadir.at(&centred, m, frame_gcrs, error);
         break;
-    case FROM_RSW:
+    case ATTITUDE_RSW:
         status = attitude_rsw.at(&centred, m, frame_gcrs, error);
         break;
-    case FROM_ITRS:
+    case ATTITUDE_ITRS:
         memcpy(frame_gcrs, m->itrs_gcrs, sizeof frame_gcrs);
         break;
     }
@@ -380,7 +385,7 @@ double attitude_table_next_row(const attitude_table *t, double t_s)
 {
     double next_s = INFINITY;
     for (int i = 0; i < t->n_spans; i++) {
-        const table_span *span = &t->spans[i];
+        const attitude_span *span = &t->spans[i];
         const long last = span->first + span->n - 1;
         if (t->t_s[last] <= t_s) continue;
         const long k = row_before(t, span, t_s);
@@ -423,7 +428,7 @@ static const attitude_key keys[N_KEYS] = {
 
 static glint_status prepare(const attitude_spec *spec, attitude *out, glint_errors *errors)
 {
-    const attitude_frame frame = spec->value[FRAME_KEY][0] == 1 ? FROM_LVLH : FROM_GCRS;
+    const attitude_frame frame = spec->value[FRAME_KEY][0] == 1 ? ATTITUDE_LVLH : ATTITUDE_GCRS;
     out->to.kind = out->second_to.kind = DIRECTION_NORTH; /* asks for nothing that moves */
     return attitude_table_read(spec->path, spec->text[OBJECT_KEY],
                                spec->given[FRAME_KEY] ? &frame : NULL, spec->clock,

@@ -8,19 +8,19 @@ struct text;
 
 /* What a span's quaternions turn the body's axes into. */
 typedef enum attitude_frame {
-    FROM_GCRS,
-    FROM_LVLH, /* of the law 'nadir' */
-    FROM_RSW,  /* of the law 'rsw' */
-    FROM_ITRS
+    ATTITUDE_GCRS,
+    ATTITUDE_LVLH, /* of the law 'nadir' */
+    ATTITUDE_RSW,  /* of the law 'rsw' */
+    ATTITUDE_ITRS
 } attitude_frame;
 
 /* Rows that belong together: nothing is read between spans. */
-typedef struct table_span {
+typedef struct attitude_span {
     attitude_frame frame;
     long first, n;       /* of the table's rows */
     double from_s, to_s; /* usable: within the times of the rows; TT s from the start */
     place where;         /* of its first row; the file borrowed from the table */
-} table_span;
+} attitude_span;
 
 typedef struct attitude_table {
     char *path;       /* owned */
@@ -28,12 +28,12 @@ typedef struct attitude_table {
     double *t_s;      /* owned; n; TT s from the start, ascending within a span */
     double (*q)[4];   /* owned; n; unit: v_frame = q v_body q* */
     long n, capacity;
-    table_span *spans; /* owned; by time once the table is complete, which do not overlap */
+    attitude_span *spans; /* owned; by time once the table is complete, which do not overlap */
     int n_spans;
 } attitude_table;
 
 /* Most that the norm of a quaternion may differ from 1: three decimals in a file leave 1e-3. */
-#define TABLE_NORM_TOLERANCE 2e-3
+#define ATTITUDE_NORM_TOLERANCE 2e-3
 
 /* Reads a file of one of the three kinds, told apart by what it begins with: a CCSDS attitude
  * ephemeris message (AEM 1.0 and 2.0; KVN and XML), an STK attitude file (.a), a CSV table.
@@ -41,9 +41,9 @@ typedef struct attitude_table {
  * of a CSV table's quaternions; NULL: not said, which is GCRS, and the others must not be told.
  * asked_from: place of the value that names the file. Warnings: rows so far apart that the way
  * between them is a guess. Errors (GLINT_INPUT; all of the file). */
-glint_status attitude_table_read(const char *path, const char *object, const attitude_frame *csv_frame,
-                                 const run_clock *clock, place asked_from, attitude_table **out,
-                                 glint_errors *errors);
+glint_status attitude_table_read(const char *path, const char *object,
+                                 const attitude_frame *csv_frame, const run_clock *clock,
+                                 place asked_from, attitude_table **out, glint_errors *errors);
 /* NULL allowed. */
 void attitude_table_free(attitude_table *t);
 

@@ -254,8 +254,16 @@ static void read_leg(reading *rd, const toml_node *table, int k)
     reading_note(rd, attitude_plan_add(&rd->s->attitude, &leg, rd->errors));
 }
 
-/* What the laws of a slew look at when it begins. The observer's direction leaves light time aside
- * (3e-5 rad): it only decides the side and length of the slew. */
+/* The observer's direction when a slew begins, light time left aside (3e-5 rad): it only decides
+ * the side and the length of the slew. */
+static void observer_of_slew(const glint_scenario *s, moment *m)
+{
+    mat_tvec(m->itrs_gcrs, s->site.r_itrs_m, m->observer);
+    sub3(m->observer, m->r_m, m->observer);
+    unit3(m->observer, m->observer);
+}
+
+/* What the laws of a slew look at when it begins. */
 static glint_status moment_of_slew(const glint_scenario *s, double t_s, moment *m,
                                    glint_error *error)
 {
@@ -263,7 +271,7 @@ static glint_status moment_of_slew(const glint_scenario *s, double t_s, moment *
     const earth_orientation still = {0, 0};
     frame_grid *grid = NULL;
     frame_set frames;
-    double distance_m, site_m[3];
+    double distance_m;
     glint_status status =
         frame_grid_prepare(&s->clock, &still, t_s, t_s, GRID_STEP_S, &grid, error);
     if (status) return status;
@@ -274,9 +282,7 @@ static glint_status moment_of_slew(const glint_scenario *s, double t_s, moment *
     if (status) return status;
     memcpy(m->itrs_gcrs, frames.itrs_gcrs, sizeof m->itrs_gcrs);
     sun_from_point(&frames, m->r_m, s->aberration, m->sun, &distance_m);
-    mat_tvec(frames.itrs_gcrs, s->site.r_itrs_m, site_m);
-    sub3(site_m, m->r_m, site_m);
-    unit3(site_m, m->observer);
+    observer_of_slew(s, m);
     moon_position(&s->clock, t_s, m->moon);
     sub3(m->moon, m->r_m, m->moon);
     unit3(m->moon, m->moon);
