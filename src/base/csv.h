@@ -26,8 +26,9 @@ typedef struct csv_table {
 glint_status csv_read(const char *path, place asked_from, csv_table *table, glint_errors *errors);
 void csv_free(csv_table *table);
 
-/* Leaves out a last row without line end, with a warning that names its line: the file may have been
- * cut within its last number. For tables that a longer or shorter version makes no less sound. */
+/* Leaves out a last row without line end, with a warning that names its line: the file may have
+ * been cut within its last number. For tables that a longer or shorter version makes no less sound.
+ */
 void csv_leave_out_cut_row(csv_table *table, glint_errors *errors);
 
 /* Column of that name, or -1. */
