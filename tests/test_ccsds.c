@@ -76,6 +76,13 @@ START_TEST(test_ccsds_scan_reads_xml)
 }
 END_TEST
 
+START_TEST(test_ccsds_scan_takes_prefixes_of_namespaces_off)
+{
+    assert_items("<ndm:oem xmlns:ndm='urn:x' version='3.0'><ndm:X>1</ndm:X></ndm:oem>",
+                 "v CCSDS_OEM_VERS=3.0|@1:1;b OEM=|@1:1;v X=1|@1:42;e OEM=|@1:58;");
+}
+END_TEST
+
 START_TEST(test_ccsds_scan_leaves_line_without_end_out)
 {
     ccsds_file file;
@@ -168,6 +175,7 @@ int main(void)
     tcase_add_test(all, test_ccsds_scan_reads_kvn);
     tcase_add_test(all, test_ccsds_scan_takes_line_ends_tabs_case_and_mark);
     tcase_add_test(all, test_ccsds_scan_reads_xml);
+    tcase_add_test(all, test_ccsds_scan_takes_prefixes_of_namespaces_off);
     tcase_add_test(all, test_ccsds_scan_leaves_line_without_end_out);
     tcase_add_test(all, test_ccsds_scan_refuses_cut_xml_everywhere);
     tcase_add_test(all, test_ccsds_scan_refuses_declarations_depth_and_zero_bytes);

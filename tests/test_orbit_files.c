@@ -1,5 +1,6 @@
 /* [orbit] from files: messages, tables of positions, and several element sets of one satellite. */
 #include "base/constants.h"
+#include "base/random.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "scenario/scenario.h"
@@ -117,6 +118,41 @@ START_TEST(test_orbit_sets_take_turns_at_the_midpoints)
     for (int k = 0; k < 3; k++)
         orbit_free(one[k]);
     orbit_free(all);
+}
+END_TEST
+
+/* What a thread remembers of one resonant set does not reach into the next: not by one bit. */
+START_TEST(test_orbit_sets_do_not_depend_on_the_cursor)
+{
+    tle sets[3];
+    static const char *const epochs[3] = {"24001.50000000", "24002.50000000", "24004.00000000"};
+    for (int k = 0; k < 3; k++) {
+        char line1[80];
+        snprintf(line1, sizeof line1, "1 99901U 24001A   %s  .00000010  00000-0  00000+0 0  9997",
+                 epochs[k]);
+        ck_assert_int_eq(tle_parse(line1,
+                                   "2 99901  63.4000 120.0000 7400000 270.0000  10.0000  "
+                                   "2.00600000    16",
+                                   false, PLACE_NONE, NULL, &sets[k], NULL),
+                         GLINT_OK);
+    }
+    const utc_time start = {2024, 1, 1, 0, 0, 0.0};
+    run_clock clock;
+    run_clock_start(&start, 6 * DAY_S, 0, &clock);
+    orbit *o;
+    ck_assert_int_eq(orbit_from_sets(sets, 3, &clock, 0, 6 * DAY_S, &o, NULL), GLINT_OK);
+    orbit_cursor cursor = {0};
+    frame_set frames = {0};
+    mat_identity(frames.gcrs_teme);
+    uint64_t seed = 3;
+    for (int k = 0; k < 500; k++) {
+        const double t_s = 6 * DAY_S * (k < 250 ? k / 250.0 : random_even(&seed));
+        double with[6], without[6];
+        ck_assert_int_eq(orbit_state(o, t_s, &frames, &cursor, with, with + 3, NULL), GLINT_OK);
+        ck_assert_int_eq(orbit_state(o, t_s, &frames, NULL, without, without + 3, NULL), GLINT_OK);
+        ck_assert_mem_eq(with, without, sizeof with);
+    }
+    orbit_free(o);
 }
 END_TEST
 
@@ -387,6 +423,7 @@ int main(void)
     tcase_add_checked_fixture(all, folder_make, folder_remove);
     tcase_add_test(all, test_orbit_files_omm_gives_the_orbit_of_two_lines);
     tcase_add_test(all, test_orbit_sets_take_turns_at_the_midpoints);
+    tcase_add_test(all, test_orbit_sets_do_not_depend_on_the_cursor);
     tcase_add_test(all, test_orbit_sets_that_no_moment_needs_are_left_out);
     tcase_add_test(all, test_orbit_files_report_names_the_sets_in_use);
     tcase_add_test(all, test_orbit_files_run_must_lie_inside_the_table);

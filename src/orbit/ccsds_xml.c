@@ -49,11 +49,16 @@ static size_t keep(scanner *s, const char *bytes, size_t n)
     return at;
 }
 
+/* Without a namespace's prefix, which says nothing here. */
+static const char *own_name(const char *name)
+{
+    const char *colon = strrchr(name, ':');
+    return colon ? colon + 1 : name;
+}
+
 static size_t keep_name(scanner *s, const char *name)
 {
-    const char *colon = strrchr(name, ':'); /* a namespace's prefix says nothing here */
-    const char *own = colon ? colon + 1 : name;
-    const size_t at = keep(s, own, strlen(own));
+    const size_t at = keep(s, name, strlen(name));
     if (!s->texts.failed) ccsds_capitals(s->texts.data + at);
     return at;
 }
@@ -109,9 +114,10 @@ static void append_version(scanner *s, const char *name, const char *version)
                          keep(s, "", 0), line_now(s), column_now(s)});
 }
 
-static void XMLCALL on_start(void *user, const XML_Char *name, const XML_Char **attributes)
+static void XMLCALL on_start(void *user, const XML_Char *written, const XML_Char **attributes)
 {
     scanner *s = user;
+    const char *name = own_name(written);
     if (s->depth == DEEPEST) {
         refuse(s, "elements nested deeper than 32");
         return;

@@ -3,10 +3,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/vec.h"
-#include "orbit/clock.h"
-
-#include <erfa.h>
-#include <erfam.h>
+#include "orbit/frames.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -102,9 +99,8 @@ bool table_frame_find(const char *name, table_frame *out, bool *eme2000)
 
 void table_node_from_eme2000(double r_m[3], double v_m_s[3])
 {
-    double bias[3][3], precession[3][3], both[3][3], turn[9];
-    eraBp06(ERFA_DJ00, 0.0, bias, precession, both); /* v_eme2000 = bias v_gcrs */
-    memcpy(turn, bias, sizeof turn);
+    double turn[9];
+    frame_bias(turn); /* v_eme2000 = turn v_gcrs */
     mat_tvec(turn, r_m, r_m);
     mat_tvec(turn, v_m_s, v_m_s);
 }
