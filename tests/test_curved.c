@@ -480,6 +480,116 @@ START_TEST(test_cylinder_inside_shines_as_its_integral)
 }
 END_TEST
 
+/* ---------------------------------------------------------------- diffuse ones */
+
+/* Two directions e_s and e_o above the plane across the axis of a cylinder (z), D apart in azimuth.
+ */
+static void about_axis(double e_s, double e_o, double apart, double turn, double sun[3],
+                       double observer[3])
+{
+    sun[0] = cos(e_s) * cos(turn), sun[1] = cos(e_s) * sin(turn), sun[2] = sin(e_s);
+    observer[0] = cos(e_o) * cos(turn + apart), observer[1] = cos(e_o) * sin(turn + apart);
+    observer[2] = sin(e_o);
+}
+
+/* Side of a cylinder: X = rho r L cos(e_s) cos(e_o) [sin D + (pi - D) cos D] / (2 pi) (physics
+ * page, section 11). */
+START_TEST(test_cylinder_of_diffuse_paint_converges_to_closed_form)
+{
+    const paint p = {"lambert", {0.4}};
+    double worst[2] = {0, 0};
+    for (int finer = 0; finer < 2; finer++) {
+        primitive_spec spec = shape("cylinder");
+        SET(&spec, "radius_m", 1.2);
+        SET(&spec, "length_m", 5);
+        SET(&spec, "sides", finer ? 128 : 64);
+        SET(&spec, "open", 1);
+        shape_material(&spec, "material", 0);
+        bench *b = bench_of(&spec, &p);
+        double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
+        for (int k = 0; k < BRDF_TILE; k++)
+            about_axis((number(k, 0) - 0.5) * 2.5, (number(k, 1) - 0.5) * 2.5, 2.4 * number(k, 2),
+                       number(k, 3), sun[k], observer[k]);
+        sums_of(b, sun, observer, x);
+        for (int k = 0; k < BRDF_TILE; k++) {
+            const double apart = 2.4 * number(k, 2);
+            const double e_s = (number(k, 0) - 0.5) * 2.5, e_o = (number(k, 1) - 0.5) * 2.5;
+            const double full = 0.4 * 1.2 * 5 * cos(e_s) * cos(e_o) / 2; /* at D = 0 */
+            const double want = full * (sin(apart) + (PI - apart) * cos(apart)) / PI;
+            worst[finer] = fmax(worst[finer], fabs(x[k] - want) / full);
+        }
+        bench_free(b);
+    }
+    /* Sides are short of the circle by (pi/n)^2/6, and light begins and ends within a side. */
+    ck_assert_msg(worst[0] < 2e-3, "%g", worst[0]);
+    ck_assert_msg(worst[1] < 0.4 * worst[0], "%g, %g", worst[0], worst[1]);
+}
+END_TEST
+
+START_TEST(test_disc_of_diffuse_paint_converges_to_closed_form)
+{
+    const paint p = {"lambert", {0.4}};
+    double off[2];
+    for (int finer = 0; finer < 2; finer++) {
+        primitive_spec spec = shape("disc");
+        SET(&spec, "radius_m", 1.5);
+        SET(&spec, "normal", 0, 0, 1);
+        SET(&spec, "sides", finer ? 128 : 64);
+        shape_material(&spec, "material", 0);
+        bench *b = bench_of(&spec, &p);
+        double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
+        for (int k = 0; k < BRDF_TILE; k++)
+            about_axis(60 * DEG, 45 * DEG, k, 1, sun[k], observer[k]);
+        sums_of(b, sun, observer, x);
+        const double want = 0.4 / PI * PI * 2.25 * sin(60 * DEG) * sin(45 * DEG);
+        off[finer] = 1 - x[0] / want;
+        for (int k = 1; k < BRDF_TILE; k++)
+            assert_rel(x[k], x[0], 1e-14);
+        bench_free(b);
+    }
+    /* 1 - sin(2a)/(2a), a = pi/n */
+    assert_rel(off[0], 2 * PI * PI / (3 * 64 * 64), 1e-3);
+    assert_rel(off[1], 2 * PI * PI / (3 * 128 * 128), 1e-3);
+}
+END_TEST
+
+START_TEST(test_cone_and_dish_of_diffuse_paint_converge_to_their_integrals)
+{
+    const paint p = {"lambert", {0.4}};
+    double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE], worst[2][2] = {{0}};
+    for (int k = 0; k < BRDF_TILE; k++)
+        about_axis(0.3 + number(k, 0), 0.3 + number(k, 1), 2 * number(k, 2), number(k, 3), sun[k],
+                   observer[k]);
+    for (int finer = 0; finer < 2; finer++)
+        for (int dish = 0; dish < 2; dish++) {
+            primitive_spec spec = shape(dish ? "dish" : "cone");
+            SET(&spec, "radius_m", 1);
+            if (dish)
+                SET(&spec, "depth_m", 0.25);
+            else
+                SET(&spec, "length_m", 2);
+            if (dish) SET(&spec, "rings", finer ? 16 : 8);
+            SET(&spec, "sides", finer ? 128 : 64);
+            if (!dish) SET(&spec, "open", 1);
+            shape_material(&spec, "material", 0);
+            bench *b = bench_of(&spec, &p);
+            sums_of(b, sun, observer, x);
+            for (int k = 0; k < BRDF_TILE; k++) {
+                const double want = dish ? dish_integral(&b->material, 1, 2, 1, sun[k], observer[k])
+                                         : cone_integral(&b->material, 0.5, sqrt(5), 1 / sqrt(5), 1,
+                                                         sun[k], observer[k]);
+                worst[dish][finer] = fmax(worst[dish][finer], fabs(x[k] / want - 1));
+            }
+            bench_free(b);
+        }
+    for (int dish = 0; dish < 2; dish++) {
+        ck_assert_msg(worst[dish][0] < 4e-3, "%d: %g", dish, worst[dish][0]);
+        ck_assert_msg(worst[dish][1] < 0.4 * worst[dish][0], "%d: %g, %g", dish, worst[dish][0],
+                      worst[dish][1]);
+    }
+}
+END_TEST
+
 /* ---------------------------------------------------------------- dishes */
 
 /* A dish of radius 1 and depth 0.25 (R = 2) with those facets agrees with its integral on both
@@ -548,6 +658,9 @@ int main(void)
     tcase_add_test(cone, test_cylinder_of_shiny_paint_glints_as_its_integral);
     tcase_add_test(cone, test_cone_of_shiny_paint_glints_as_its_integral);
     tcase_add_test(cone, test_cylinder_inside_shines_as_its_integral);
+    tcase_add_test(cone, test_cylinder_of_diffuse_paint_converges_to_closed_form);
+    tcase_add_test(cone, test_disc_of_diffuse_paint_converges_to_closed_form);
+    tcase_add_test(cone, test_cone_and_dish_of_diffuse_paint_converge_to_their_integrals);
     tcase_add_test(dish, test_dish_of_shiny_paint_shines_as_its_integral);
     tcase_set_timeout(dish, 300);
     tcase_set_timeout(sharp, 60);

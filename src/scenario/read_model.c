@@ -2,6 +2,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "brdf/sharpness.h"
 #include "scenario/read_material.h"
 
 #include <math.h>
@@ -17,6 +18,8 @@ void satellite_free(satellite *sat)
     for (int m = 0; m < sat->n_materials; m++)
         scenario_material_free(&sat->materials[m]);
     free(sat->materials);
+    for (int c = 0; c < sat->n_components; c++)
+        free(sat->components[c].report);
     free(sat->components);
     free(sat->order);
     model_free(&sat->model);
@@ -69,7 +72,7 @@ static void read_names(reading *rd, reader *r, const char *key, primitive_spec *
     if (!table || table->n_children == 0) return;
     spec->names = calloc((size_t)table->n_children, sizeof *spec->names);
     if (!spec->names) {
-        r->status = errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+        r->status = errors_no_memory(r->errors);
         return;
     }
     for (int i = 0; i < table->n_children; i++) {
@@ -130,7 +133,7 @@ static void read_points(reader *r, const primitive_key *key, primitive_spec *spe
     }
     double(*points)[3] = calloc((size_t)node->n_children, sizeof *points);
     if (!points) {
-        r->status = errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+        r->status = errors_no_memory(r->errors);
         return;
     }
     for (int i = 0; i < node->n_children; i++)
@@ -248,6 +251,25 @@ static void read_copies(reading *rd, reader *r, primitive_spec *spec)
     if (reader_choice(r, "mirror", MIRRORS, 3, 0, &mirror)) spec->mirror = mirror + 1;
 }
 
+/* Adds lines to the report of a component, and frees them. */
+static void add_report(reading *rd, scenario_component *component, text *lines)
+{
+    if (lines->failed) reading_no_memory(rd);
+    if (!component->report) {
+        component->report = lines->data;
+        return;
+    }
+    text both = {0};
+    text_printf(&both, "%s%s", component->report, lines->data ? lines->data : "");
+    text_free(lines);
+    if (both.failed) {
+        reading_no_memory(rd);
+        return;
+    }
+    free(component->report);
+    component->report = both.data;
+}
+
 static void read_primitive(reading *rd, const primitive_kind *kind, const toml_node *table,
                            int component, facet_list *facets)
 {
@@ -259,8 +281,11 @@ static void read_primitive(reading *rd, const primitive_kind *kind, const toml_n
     for (int k = 0; k < kind->n_keys; k++)
         read_primitive_key(rd, &r, &spec, k);
     read_copies(rd, &r, &spec);
+    text report = {0};
+    spec.report = &report;
     glint_status status = reader_done(&r);
     if (status == GLINT_OK) status = primitive_add(&spec, component, facets, rd->errors);
+    add_report(rd, &rd->s->satellite.components[component], &report);
     if (status == GLINT_OK && facets->n > MOST_FACETS)
         status = errors_add(rd->errors, GLINT_INPUT, table->where,
                             "the satellite has more than %d facets; expected fewer", MOST_FACETS);
@@ -327,15 +352,6 @@ static int named_component(reading *rd, reader *r, const toml_node *node)
     return found;
 }
 
-static void refuse_planned_primitives(reader *r)
-{
-    static const char *const PLANNED[] = {"cylinder", "cone", "disc", "annulus",
-                                          "dish",     "wing", "boom", "mesh"};
-    for (size_t k = 0; k < sizeof PLANNED / sizeof *PLANNED; k++)
-        if (!primitive_kind_named(PLANNED[k]))
-            reader_refuse(r, PLANNED[k], "this version has plate, facet, box, prism and sphere");
-}
-
 static void read_component(reading *rd, const toml_node *table, int c, facet_list *facets)
 {
     scenario_component *component = &rd->s->satellite.components[c];
@@ -355,7 +371,6 @@ static void read_component(reading *rd, const toml_node *table, int c, facet_lis
         for (int i = 0; list && i < list->n_children; i++)
             read_primitive(rd, kind, &list->children[i], c, facets);
     }
-    refuse_planned_primitives(&r);
     reading_done(rd, &r);
 }
 
@@ -469,6 +484,31 @@ static void compile(reading *rd, facet_list *facets, place where)
         reading_note(rd, errors_take(rd->errors, &error, where));
 }
 
+/* Flat facets of a mesh that bend by more than a lobe is wide make it flicker. */
+static void warn_of_meshes(reading *rd)
+{
+    const satellite *sat = &rd->s->satellite;
+    for (int m = 0; m < sat->n_materials; m++) {
+        double bend, width = HUGE_VAL;
+        glint_error error;
+        const glint_status status = model_material_bend(&sat->model, m, &bend, &error);
+        if (status) {
+            reading_note(rd, errors_take(rd->errors, &error, sat->materials[m].where));
+            return;
+        }
+        if (!(bend > 0)) continue;
+        for (int b = 0; b < rd->s->n_bands; b++)
+            width = fmin(width, brdf_material_width(&sat->materials[m].bands[b]));
+        if (width < 0.5 * bend)
+            errors_warn(
+                rd->errors, sat->materials[m].where,
+                "the lobe of '%s' is %.3g deg wide, and the mesh made of it bends by %.3g deg "
+                "from facet to facet: it flickers; smooth normals in the file, or smooth_deg, "
+                "make it steady",
+                sat->materials[m].name, width / DEG, bend / DEG);
+    }
+}
+
 void read_model_tables(reading *rd, reader *r)
 {
     const glint_status before = rd->status;
@@ -479,6 +519,7 @@ void read_model_tables(reading *rd, reader *r)
     const place where = {r->table->where.file, 0, 0};
     if (rd->status == GLINT_OK && r->status == GLINT_OK) compile(rd, &facets, where);
     if (rd->status == GLINT_OK && r->status == GLINT_OK) warn_of_materials(rd);
+    if (rd->status == GLINT_OK && r->status == GLINT_OK) warn_of_meshes(rd);
     facet_list_free(&facets);
     reading_note(rd, before);
 }

@@ -30,6 +30,7 @@ typedef struct scenario_component {
     int parent;       /* index, -1 for none */
     bool has_hinge;
     hinge hinge;
+    char *report; /* owned; lines on what its primitives became, for people; NULL: none */
 } scenario_component;
 
 /* The satellite: a model file, or tables in the scenario. */
