@@ -2,72 +2,13 @@
  * smoothing. The files are written by the tests. */
 #include "base/random.h"
 #include "base/text.h"
+#include "bench.h"
 #include "facets/mesh.h"
-#include "shapes.h"
-
-#include "scenario_text.h"
+#include "mesh_files.h"
 
 static const double origin[3] = {0, 0, 0};
 
 /* ---------------------------------------------------------------- files */
-
-/* A surface in the making: triangles over points. */
-typedef struct soup {
-    double point[5000][3];
-    int triangle[10000][3];
-    int n_points, n;
-} soup;
-
-static int add_point(soup *s, double x, double y, double z)
-{
-    double *p = s->point[s->n_points];
-    p[0] = x, p[1] = y, p[2] = z;
-    return s->n_points++;
-}
-
-static void add_triangle(soup *s, int a, int b, int c)
-{
-    int *t = s->triangle[s->n++];
-    t[0] = a, t[1] = b, t[2] = c;
-}
-
-/* A box about the origin, each face an n x n grid of squares cut in two; corners are shared. */
-static soup *box_soup(double x, double y, double z, int n)
-{
-    soup *s = calloc(1, sizeof *s);
-    const double size[3] = {x, y, z};
-    for (int face = 0; face < 6; face++) {
-        const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const int first = s->n_points, sense = face % 2 ? -1 : 1;
-        for (int row = 0; row <= n; row++)
-            for (int column = 0; column <= n; column++) {
-                double p[3];
-                p[axis] = 0.5 * sense * size[axis];
-                p[u] = ((double)column / n - 0.5) * size[u] * sense; /* so that u x v looks out */
-                p[v] = ((double)row / n - 0.5) * size[v];
-                add_point(s, p[0], p[1], p[2]);
-            }
-        for (int cell = 0; cell < n * n; cell++) {
-            const int a = first + cell / n * (n + 1) + cell % n, b = a + 1, c = a + n + 1;
-            add_triangle(s, a, b, c + 1);
-            add_triangle(s, a, c + 1, c);
-        }
-    }
-    return s;
-}
-
-static void write_obj(const char *name, const soup *s, const char *head)
-{
-    text t = {0};
-    text_add(&t, head);
-    for (int k = 0; k < s->n_points; k++)
-        text_printf(&t, "v %.17g %.17g %.17g\n", s->point[k][0], s->point[k][1], s->point[k][2]);
-    for (int k = 0; k < s->n; k++)
-        text_printf(&t, "f %d %d %d\n", s->triangle[k][0] + 1, s->triangle[k][1] + 1,
-                    s->triangle[k][2] + 1);
-    write_bytes(name, t.data, t.length);
-    text_free(&t);
-}
 
 static void write_text_stl(const char *name, const soup *s)
 {
@@ -115,29 +56,6 @@ static size_t write_binary_stl(const char *name, const soup *s)
 }
 
 /* ---------------------------------------------------------------- primitives */
-
-static primitive_spec mesh_shape(const char *name)
-{
-    primitive_spec spec = shape("mesh");
-    shape_key(&spec, "file");
-    const char *path = in_folder(name);
-    spec.path = string_copy(path, strlen(path));
-    shape_material(&spec, "material", 0);
-    return spec;
-}
-
-/* Adds the mesh, whatever it warns of, and frees it; returns what it reports (free). */
-static char *mesh_add(primitive_spec *spec, facet_list *list)
-{
-    text report = {0};
-    glint_errors *errors = glint_errors_new();
-    spec->report = &report;
-    const glint_status status = primitive_add(spec, 0, list, errors);
-    ck_assert_msg(status == GLINT_OK, "%s", list_errors(errors));
-    glint_errors_free(errors);
-    primitive_spec_free(spec);
-    return report.data;
-}
 
 /* The mesh is refused with an error at that place (line 0: of no line) that holds the words. */
 static void assert_mesh_refused(primitive_spec *spec, const char *file, int line, int column,
@@ -891,44 +809,24 @@ static void write_sphere(const char *name, bool with_normals)
     text_free(&t);
 }
 
-/* Sums over 96 attitudes at a phase angle of 40 deg: the least and the most, over a quarter of
- * rho_s (the closed form of a narrow lobe). */
+/* Takes over the facets, and sums over 96 attitudes at a phase angle of 40 deg: the least and the
+ * most, over a quarter of rho_s (the closed form of a narrow lobe). */
 static void shine(facet_list *list, double alpha, double *least, double *most)
 {
-    brdf_lobe lobe = {.model = brdf_model_named("ward-gmd"), .weight = 1};
-    const double params[6] = {0, 0.8, alpha, alpha, (double)NAN, (double)NAN};
-    memcpy(lobe.params, params, sizeof params);
-    ck_assert_int_eq(lobe.model->prepare(lobe.params, lobe.coef, NULL), GLINT_OK);
-    brdf_material material = {1, &lobe};
-    const model_material materials[1] = {{"shiny", &material}};
-    const model_component components[1] = {{"body"}};
-    model m;
-    ck_assert_int_eq(model_compile(list, materials, 1, components, 1, 1, &m, NULL), GLINT_OK);
+    const paint shiny = {"ward-gmd", {0, 0.8, alpha, alpha, NONE, NONE}};
+    bench *b = bench_of_facets(list, &shiny);
+    double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
     *least = HUGE_VAL, *most = 0;
-    uint64_t state = 3;
     for (int tile = 0; tile < 3; tile++) {
-        brdf_light light;
-        double x[BRDF_TILE];
-        for (int k = 0; k < BRDF_TILE; k++) {
-            const double z = 2 * random_even(&state) - 1, s = sqrt(1 - z * z);
-            const double a = TWO_PI * random_even(&state), h[3] = {s * cos(a), s * sin(a), z};
-            const double other[3] = {random_even(&state), random_even(&state),
-                                     -random_even(&state)};
-            double aside[3];
-            perp3(other, h, aside);
-            for (int j = 0; j < 3; j++) {
-                light.i[j][k] = cos(20 * DEG) * h[j] + sin(20 * DEG) * aside[j];
-                light.r[j][k] = cos(20 * DEG) * h[j] - sin(20 * DEG) * aside[j];
-            }
-        }
-        brdf_light_finish(&light);
-        model_sum(&m, &light, NULL, x);
+        for (int k = 0; k < BRDF_TILE; k++)
+            attitude(tile * BRDF_TILE + k, 40 * DEG, sun[k], observer[k]);
+        sums_of(b, sun, observer, x);
         for (int k = 0; k < BRDF_TILE; k++) {
             *least = fmin(*least, x[k] / 0.2);
             *most = fmax(*most, x[k] / 0.2);
         }
     }
-    model_free(&m);
+    bench_free(b);
 }
 
 START_TEST(test_mesh_with_smooth_normals_shines_steadily)

@@ -33,16 +33,15 @@ bool mesh_defect_is_mended(mesh_defect defect)
     return defect == DEFECT_DUPLICATE || defect == DEFECT_REVERSED || defect == DEFECT_INSIDE_OUT;
 }
 
-/* Counts a defect, and keeps the lowest lines as examples. */
-static void note(mesh_defects *d, mesh_defect defect, int line)
+void mesh_defect_note(mesh_defects *d, mesh_defect defect, int line)
 {
-    int *lines = d->line[defect];
-    const int kept = d->n[defect] < DEFECT_EXAMPLES ? d->n[defect] : DEFECT_EXAMPLES;
+    int *lines = d->line[defect], kept = 0, at = 0;
     d->n[defect]++;
-    int at = kept;
-    while (at > 0 && lines[at - 1] > line)
-        at--;
-    if (at == DEFECT_EXAMPLES) return;
+    while (kept < DEFECT_EXAMPLES && lines[kept] > 0)
+        kept++;
+    while (at < kept && lines[at] < line)
+        at++;
+    if (at == DEFECT_EXAMPLES || (at < kept && lines[at] == line)) return;
     for (int k = kept < DEFECT_EXAMPLES ? kept : DEFECT_EXAMPLES - 1; k > at; k--)
         lines[k] = lines[k - 1];
     lines[at] = line;
@@ -103,7 +102,7 @@ static void drop_degenerate(mesh *m, mesh_defects *d)
     int kept = 0;
     for (int f = 0; f < m->n_faces; f++) {
         const bool drop = is_degenerate(m, &m->faces[f]);
-        if (drop) note(d, DEFECT_DEGENERATE, m->faces[f].line);
+        if (drop) mesh_defect_note(d, DEFECT_DEGENERATE, m->faces[f].line);
         drop_face(m, f, &kept, drop);
     }
     m->n_faces = kept;
@@ -136,7 +135,7 @@ static glint_status find_duplicates(mesh *m, bool repair, mesh_defects *d, glint
     if (ok) qsort(keys, (size_t)n, sizeof *keys, compare_keys);
     for (int k = 1; k < n && ok; k++) {
         if (memcmp(keys[k].corner, keys[k - 1].corner, sizeof keys[k].corner) != 0) continue;
-        note(d, DEFECT_DUPLICATE, m->faces[keys[k].face].line);
+        mesh_defect_note(d, DEFECT_DUPLICATE, m->faces[keys[k].face].line);
         drop[keys[k].face] = repair;
     }
     int kept = 0;
@@ -260,8 +259,8 @@ static glint_status find_neighbours(pieces *p, mesh_defects *d, glint_error *err
     for (int k = 0, end; k < n; k = end) {
         end = run_end(uses, n, k);
         const int a = uses[k].half_edge, b = uses[end - 1].half_edge;
-        if (end - k == 1) note(d, DEFECT_OPEN, m->faces[a / 3].line);
-        if (end - k > 2) note(d, DEFECT_CROWDED, m->faces[a / 3].line);
+        if (end - k == 1) mesh_defect_note(d, DEFECT_OPEN, m->faces[a / 3].line);
+        if (end - k > 2) mesh_defect_note(d, DEFECT_CROWDED, m->faces[a / 3].line);
         if (end - k != 2) continue;
         p->neighbour[a] = b / 3;
         p->neighbour[b] = a / 3;
@@ -324,8 +323,8 @@ static void judge(pieces *p, int n, int number, mesh_defects *d)
     for (int k = 0; k < n; k++) {
         const int f = p->queue[k];
         const bool minority = p->turned[f] != majority_turned;
-        if (minority) note(d, DEFECT_REVERSED, m->faces[f].line);
-        if (inside_out) note(d, DEFECT_INSIDE_OUT, m->faces[f].line);
+        if (minority) mesh_defect_note(d, DEFECT_REVERSED, m->faces[f].line);
+        if (inside_out) mesh_defect_note(d, DEFECT_INSIDE_OUT, m->faces[f].line);
         p->turned[f] = minority != inside_out;
     }
 }

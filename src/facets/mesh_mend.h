@@ -27,6 +27,8 @@ typedef struct mesh_defects {
 
 /* What a number of defects is called, as in "3 <words>". */
 const char *mesh_defect_words(mesh_defect defect, int n);
+/* Counts a defect; the lowest lines are kept as examples, each once. */
+void mesh_defect_note(mesh_defects *d, mesh_defect defect, int line);
 /* True for defects that repair does something about: DUPLICATE faces are left out, REVERSED and
  * INSIDE_OUT ones turned round. Nothing closes holes. */
 bool mesh_defect_is_mended(mesh_defect defect);

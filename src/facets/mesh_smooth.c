@@ -48,12 +48,17 @@ static double angle_at(const mesh *m, int f, int v)
     return angle3(to, from);
 }
 
+/* Faces at one vertex that are looked at; of more only every second, third, ..., so that the tip of
+ * a cone of many faces does not take the square of their number. */
+enum { LOOKED_AT = 256 };
+
 /* The mean normal at a vertex of the faces there that meet face f at less than an angle. */
 static void mean_normal(const mesh *m, const double (*normals)[3], const meeting *at, int f, int v,
                         double below, double out[3])
 {
     double sum[3] = {0, 0, 0};
-    for (int k = at->first[v]; k < at->first[v + 1]; k++) {
+    const int step = 1 + (at->first[v + 1] - at->first[v] - 1) / LOOKED_AT;
+    for (int k = at->first[v]; k < at->first[v + 1]; k += step) {
         const int other = at->face[k];
         if (angle3(normals[other], normals[f]) >= below) continue;
         add_scaled3(sum, angle_at(m, other, v), normals[other], sum);
@@ -75,12 +80,6 @@ static bool take_normals(const mesh *m, const double (*normals)[3], int f, doubl
     return true;
 }
 
-static void note_backward(const mesh *m, int f, mesh_defects *d)
-{
-    const int n = d->n[DEFECT_BACKWARD]++;
-    if (n < DEFECT_EXAMPLES) d->line[DEFECT_BACKWARD][n] = m->faces[f].line;
-}
-
 static bool differs(const double corner[3][3], const double normal[3])
 {
     for (int j = 0; j < 3; j++)
@@ -93,7 +92,7 @@ static void smooth_face(const mesh *m, const double (*normals)[3], const smoothi
 {
     bool backward;
     bool given = take_normals(m, normals, f, out->normal[f], &backward);
-    if (given && backward) note_backward(m, f, defects);
+    if (given && backward) mesh_defect_note(defects, DEFECT_BACKWARD, m->faces[f].line);
     given = given && how->from_file;
     if (given ? backward : !(how->below > 0.0)) return;
     for (int j = 0; j < 3 && !given; j++)

@@ -4,50 +4,70 @@
 #include "facets/model.h"
 #include "facets/solids.h"
 
-#include <assert.h>
 #include <stdlib.h>
 
-static int compare_numbers(const void *a, const void *b)
+/* An edge between two imported facets of one material, and how much it bends, rad. */
+typedef struct bent_edge {
+    int material;
+    double bend_rad;
+} bent_edge;
+
+static int compare_edges(const void *a, const void *b)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    const bent_edge *p = a, *q = b;
+    if (p->material != q->material) return p->material < q->material ? -1 : 1;
+    return (p->bend_rad > q->bend_rad) - (p->bend_rad < q->bend_rad);
 }
 
-static bool is_flat_import(const facet *f, int material)
+static bool is_flat_import(const facet *f)
 {
-    return f->imported && f->surface == 0 && f->material == material;
+    return f->imported && f->surface == 0;
 }
 
-static bool has_flat_imports(const model *m, int material)
+static bool has_flat_imports(const model *m)
 {
     for (int k = 0; k < m->n_facets; k++)
-        if (is_flat_import(&m->polygons.items[k], material)) return true;
+        if (is_flat_import(&m->polygons.items[k])) return true;
     return false;
 }
 
-glint_status model_material_bend(const model *m, int material, double *bend_rad, glint_error *error)
+/* Collects the edges that may belong to a curve; returns how many. */
+static int collect_edges(const model *m, const solids *s, bent_edge *out)
 {
     static const double SHARP = 40 * DEG, PLANE = 1e-4; /* rad */
+    int n = 0;
+    for (int e = 0; e < s->n_edges; e++) {
+        const facet *left = &m->polygons.items[s->edges[e].left];
+        const facet *right = &m->polygons.items[s->edges[e].right];
+        if (!is_flat_import(left) || !is_flat_import(right) || left->material != right->material)
+            continue;
+        const double bend_rad = angle3(left->normal, right->normal);
+        if (bend_rad > PLANE && bend_rad < SHARP) out[n++] = (bent_edge){left->material, bend_rad};
+    }
+    return n;
+}
+
+glint_status model_material_bends(const model *m, double *bends_rad, glint_error *error)
+{
     enum { FEWEST = 6 };
-    assert(material >= 0 && material < m->n_materials);
-    *bend_rad = 0.0;
-    if (!has_flat_imports(m, material)) return GLINT_OK;
+    for (int k = 0; k < m->n_materials; k++)
+        bends_rad[k] = 0.0;
+    if (!has_flat_imports(m)) return GLINT_OK;
     solids s;
     const glint_status status = solids_find(m, &s, error);
     if (status) return status;
-    double *bends = malloc(((size_t)s.n_edges + 1) * sizeof *bends);
-    int n = 0;
-    for (int e = 0; e < s.n_edges && bends; e++) {
-        const facet *left = &m->polygons.items[s.edges[e].left];
-        const facet *right = &m->polygons.items[s.edges[e].right];
-        if (!is_flat_import(left, material) || !is_flat_import(right, material)) continue;
-        const double bend = angle3(left->normal, right->normal);
-        if (bend > PLANE && bend < SHARP) bends[n++] = bend;
+    bent_edge *edges = malloc(((size_t)s.n_edges + 1) * sizeof *edges);
+    const int n = edges ? collect_edges(m, &s, edges) : 0;
+    if (edges) qsort(edges, (size_t)n, sizeof *edges, compare_edges);
+    for (int first = 0, end; first < n; first = end) {
+        end = first + 1;
+        while (end < n && edges[end].material == edges[first].material)
+            end++;
+        if (end - first >= FEWEST)
+            bends_rad[edges[first].material] = edges[first + 3 * (end - first) / 4].bend_rad;
     }
-    if (bends) qsort(bends, (size_t)n, sizeof *bends, compare_numbers);
-    if (bends && n >= FEWEST) *bend_rad = bends[3 * n / 4];
-    const bool failed = !bends;
-    free(bends);
+    const bool failed = !edges;
+    free(edges);
     solids_free(&s);
     return failed ? error_no_memory(error) : GLINT_OK;
 }

@@ -90,6 +90,9 @@ glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint
     glint_status status = column_set_make(scenario, &c->columns, &error);
     facts_of_run(scenario, &c->facts);
     if (!status) status = tile_plan_shadows(scenario, &c->plan, &error);
+    if (!status && c->plan)
+        status = tile_fit_threads(scenario->satellite.model.n_facets, c->n_threads, &c->n_threads,
+                                  &error);
     if (!status && (c->facts.failed || !make_workers(c) || !make_rows(c)))
         status = error_no_memory(&error);
     if (status) {

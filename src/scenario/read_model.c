@@ -484,29 +484,39 @@ static void compile(reading *rd, facet_list *facets, place where)
         reading_note(rd, errors_take(rd->errors, &error, where));
 }
 
+/* The narrowest lobe of a material in all bands, rad. */
+static double narrowest_width(const scenario_material *material, int n_bands)
+{
+    double width_rad = HUGE_VAL;
+    for (int b = 0; b < n_bands; b++)
+        width_rad = fmin(width_rad, brdf_material_width(&material->bands[b]));
+    return width_rad;
+}
+
 /* Flat facets of a mesh that bend by more than a lobe is wide make it flicker. */
 static void warn_of_meshes(reading *rd)
 {
-    const satellite *sat = &rd->s->satellite;
-    for (int m = 0; m < sat->n_materials; m++) {
-        double bend, width = HUGE_VAL;
-        glint_error error;
-        const glint_status status = model_material_bend(&sat->model, m, &bend, &error);
-        if (status) {
-            reading_note(rd, errors_take(rd->errors, &error, sat->materials[m].where));
-            return;
-        }
-        if (!(bend > 0)) continue;
-        for (int b = 0; b < rd->s->n_bands; b++)
-            width = fmin(width, brdf_material_width(&sat->materials[m].bands[b]));
-        if (width < 0.5 * bend)
-            errors_warn(
-                rd->errors, sat->materials[m].where,
-                "the lobe of '%s' is %.3g deg wide, and the mesh made of it bends by %.3g deg "
-                "from facet to facet: it flickers; smooth normals in the file, or smooth_deg, "
-                "make it steady",
-                sat->materials[m].name, width / DEG, bend / DEG);
+    satellite *sat = &rd->s->satellite;
+    double *bends_rad = malloc((size_t)sat->n_materials * sizeof *bends_rad);
+    if (!bends_rad || model_material_bends(&sat->model, bends_rad, NULL)) {
+        free(bends_rad);
+        reading_no_memory(rd);
+        return;
     }
+    for (int m = 0; m < sat->n_materials; m++) {
+        scenario_material *material = &sat->materials[m];
+        const double bend_rad = bends_rad[m];
+        const double width_rad =
+            bend_rad > 0 ? narrowest_width(material, rd->s->n_bands) : HUGE_VAL;
+        if (!(width_rad < 0.5 * bend_rad)) continue;
+        material->flicker_rad = bend_rad;
+        errors_warn(rd->errors, material->where,
+                    "the lobe of '%s' is %.3g deg wide, and the mesh made of it bends by %.3g deg "
+                    "from facet to facet: it flickers; smooth normals in the file, or smooth_deg, "
+                    "make it steady",
+                    material->name, width_rad / DEG, bend_rad / DEG);
+    }
+    free(bends_rad);
 }
 
 void read_model_tables(reading *rd, reader *r)
