@@ -86,7 +86,7 @@ static inline void direction_of(double u, double v, double out[3])
 }
 
 /* Attitude k: two directions at a phase angle, their bisector and their plane anywhere. */
-static inline void attitude(int k, double phase, double sun[3], double observer[3])
+static inline void light_at(int k, double phase, double sun[3], double observer[3])
 {
     double h[3], other[3], aside[3];
     direction_of(number(k, 0), number(k, 1), h);

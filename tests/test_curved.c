@@ -160,7 +160,7 @@ static void assert_constant(int facets, const paint *p,
         for (int tile = 0; tile < N_ATTITUDES / BRDF_TILE; tile++) {
             double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
             for (int k = 0; k < BRDF_TILE; k++)
-                attitude(tile * BRDF_TILE + k, phase, sun[k], observer[k]);
+                light_at(tile * BRDF_TILE + k, phase, sun[k], observer[k]);
             sums_of(b, sun, observer, x);
             for (int k = 0; k < BRDF_TILE; k++)
                 ck_assert_msg(is_near(x[k], right, rel * right),
@@ -234,7 +234,7 @@ START_TEST(test_sphere_of_shiny_paint_is_constant_with_few_facets)
     const double phase = 30 * DEG, right = integral(b, phase);
     double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
     for (int k = 0; k < BRDF_TILE; k++)
-        attitude(k, phase, sun[k], observer[k]);
+        light_at(k, phase, sun[k], observer[k]);
     sums_of(b, sun, observer, x);
     for (int k = 0; k < BRDF_TILE; k++)
         assert_rel(x[k], right, 3e-3);
@@ -258,7 +258,7 @@ START_TEST(test_sphere_of_diffuse_paint_is_the_polyhedron)
     ck_assert_ptr_null(b->model.spans[0].curved);
     double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
     for (int k = 0; k < BRDF_TILE; k++)
-        attitude(k, 1, sun[k], observer[k]);
+        light_at(k, 1, sun[k], observer[k]);
     sums_of(b, sun, observer, x);
     for (int k = 0; k < BRDF_TILE; k++) {
         double want = 0;

@@ -819,7 +819,7 @@ static void shine(facet_list *list, double alpha, double *least, double *most)
     *least = HUGE_VAL, *most = 0;
     for (int tile = 0; tile < 3; tile++) {
         for (int k = 0; k < BRDF_TILE; k++)
-            attitude(tile * BRDF_TILE + k, 40 * DEG, sun[k], observer[k]);
+            light_at(tile * BRDF_TILE + k, 40 * DEG, sun[k], observer[k]);
         sums_of(b, sun, observer, x);
         for (int k = 0; k < BRDF_TILE; k++) {
             *least = fmin(*least, x[k] / 0.2);
@@ -965,8 +965,53 @@ START_TEST(test_scenario_warns_of_mesh_that_flickers)
         for (size_t k = 0; k < glint_errors_count(errors); k++)
             warned += strstr(glint_errors_get(errors, k)->message, "it flickers") != NULL;
         ck_assert_msg(warned == narrow, "%s", list_errors(errors));
+        glint_curve *curve;
+        ck_assert_int_eq(glint_curve_open(s, 1, &curve, NULL), GLINT_OK);
+        const char *key, *value;
+        int in_header = 0;
+        for (size_t k = 0; glint_curve_fact(curve, k, &key, &value); k++)
+            in_header += strcmp(key, "mesh_flickers") == 0 && strstr(value, "white: its lobe");
+        ck_assert_int_eq(in_header, narrow);
+        glint_curve_close(curve);
         glint_errors_free(errors);
         glint_scenario_free(s);
+    }
+}
+END_TEST
+
+/* What a mesh file says decides the result: the hash must tell files apart that differ in corners,
+ * in normals or in names of materials only. */
+START_TEST(test_scenario_hash_knows_what_the_mesh_file_says)
+{
+    static const struct {
+        const char *corner, *normal, *first, *second;
+    } files[] = {{"0 1 0", "0 1 1", "a", "b"},
+                 {"0 2 0", "0 1 1", "a", "b"},
+                 {"0 1 0", "0 1 2", "a", "b"},
+                 {"0 1 0", "0 1 1", "b", "a"}};
+    const marked_text m = with_part(
+        GIVEN, PART_PRIMITIVE,
+        "[[component.mesh]]\nfile = \"skin.obj\"\nmaterials = { a = \"white\", b = \"grey\" }\n"
+        "[materials.grey]\nbrdf = \"lambert\"\nrho = 0.2\n");
+    char hashes[COUNT_OF(files)][64];
+    for (size_t f = 0; f < COUNT_OF(files); f++) {
+        char content[256];
+        snprintf(content, sizeof content,
+                 "v 0 0 0\nv 1 0 0\nv %s\nvn 0 0 1\nvn %s\nusemtl %s\nf 1//1 2//1 3//2\n"
+                 "v 1 1 0\nusemtl %s\nf 2 4 3\n",
+                 files[f].corner, files[f].normal, files[f].first, files[f].second);
+        write_file("skin.obj", content);
+        glint_scenario *s = read_sound(write_file("scenario.toml", m.text));
+        glint_curve *curve;
+        ck_assert_int_eq(glint_curve_open(s, 1, &curve, NULL), GLINT_OK);
+        const char *key, *value;
+        for (size_t k = 0; glint_curve_fact(curve, k, &key, &value); k++)
+            if (strcmp(key, "scenario_hash") == 0)
+                snprintf(hashes[f], sizeof hashes[f], "%s", value);
+        glint_curve_close(curve);
+        glint_scenario_free(s);
+        for (size_t k = 0; k < f; k++)
+            ck_assert_str_ne(hashes[k], hashes[f]);
     }
 }
 END_TEST
@@ -1003,6 +1048,7 @@ int main(void)
     tcase_add_test(tcase, test_scenario_reads_mesh_beside_it_and_check_tells_of_it);
     tcase_add_test(tcase, test_scenario_mesh_wrong_is_refused);
     tcase_add_test(tcase, test_scenario_warns_of_mesh_that_flickers);
+    tcase_add_test(tcase, test_scenario_hash_knows_what_the_mesh_file_says);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);
 }

@@ -387,6 +387,55 @@ START_TEST(test_dish_tolerance_holds_for_sides_and_rings)
 }
 END_TEST
 
+/* The primitive is refused with one error, which says `words` at a key (NULL: at the table). */
+static void assert_refused(primitive_spec *spec, const char *key, const char *words)
+{
+    glint_errors *errors = glint_errors_new();
+    facet_list list = {0};
+    ck_assert_int_eq(primitive_add(spec, 0, &list, errors), GLINT_INPUT);
+    ck_assert_int_eq(list.n, 0);
+    ck_assert_int_eq(list.n_surfaces, 0);
+    const glint_error *first = glint_errors_get(errors, 0);
+    ck_assert_msg(strstr(first->message, words), "\"%s\" lacks \"%s\"", first->message, words);
+    ck_assert_int_eq(first->line,
+                     key ? KEY_LINE + primitive_key_index(spec->kind, key) : TABLE_LINE);
+    ck_assert_uint_eq(glint_errors_error_count(errors), 1);
+    glint_errors_free(errors);
+    facet_list_free(&list);
+    primitive_spec_free(spec);
+}
+
+/* The distance of the facets' planes from the centre is that of the nearest point of the facets:
+ * all of them hold their feet. */
+START_TEST(test_sphere_tolerance_gives_fewest_facets_that_keep_it)
+{
+    static const int counts[] = {20, 80, 320, 1280, 5120};
+    for (int k = 0; k < 5; k++) {
+        primitive_spec spec = sphere_shape(2, counts[k]);
+        facet_list list = {0};
+        shape_add(&spec, 0, &list);
+        double sag_m = 0;
+        for (int f = 0; f < list.n; f++) {
+            const facet *item = &list.items[f];
+            sag_m = fmax(sag_m, 2 - dot3(item->normal, list.vertices[item->first_vertex]));
+        }
+        facet_list_free(&list);
+        for (int less = 0; less < 2; less++) {
+            spec = shape("sphere");
+            SET(&spec, "radius_m", 2);
+            SET(&spec, "tolerance_m", less ? sag_m * (1 - 1e-9) : sag_m * (1 + 1e-9));
+            shape_material(&spec, "material", 0);
+            shape_add(&spec, 0, &list);
+            ck_assert_int_eq(list.n, less ? 4 * counts[k] : counts[k]);
+            facet_list_free(&list);
+        }
+    }
+    primitive_spec spec = sphere_shape(2, 1280);
+    SET(&spec, "tolerance_m", 0.1);
+    assert_refused(&spec, "tolerance_m", "both facets and tolerance_m are given");
+}
+END_TEST
+
 START_TEST(test_dish_with_back_is_closed_shell)
 {
     primitive_spec spec = dish_shape(1, 0.25, 12, 3);
@@ -480,23 +529,63 @@ END_TEST
 
 /* ---------------------------------------------------------------- what is refused */
 
-/* The primitive is refused with one error, which says `words` at a key (NULL: at the table). */
-static void assert_refused(primitive_spec *spec, const char *key, const char *words)
+/* One of each kind, away from the origin; mesh is in test_mesh.c. */
+static primitive_spec any_shape(const primitive_kind *kind)
 {
-    glint_errors *errors = glint_errors_new();
-    facet_list list = {0};
-    ck_assert_int_eq(primitive_add(spec, 0, &list, errors), GLINT_INPUT);
-    ck_assert_int_eq(list.n, 0);
-    ck_assert_int_eq(list.n_surfaces, 0);
-    const glint_error *first = glint_errors_get(errors, 0);
-    ck_assert_msg(strstr(first->message, words), "\"%s\" lacks \"%s\"", first->message, words);
-    ck_assert_int_eq(first->line,
-                     key ? KEY_LINE + primitive_key_index(spec->kind, key) : TABLE_LINE);
-    ck_assert_uint_eq(glint_errors_error_count(errors), 1);
-    glint_errors_free(errors);
-    facet_list_free(&list);
-    primitive_spec_free(spec);
+    static const double centre_m[3] = {3, 2, 1}, normal[3] = {1, 1, 0}, tangent[3] = {0, 0, 1};
+    primitive_spec spec = shape(kind->name);
+    for (int k = 0; k < kind->n_keys; k++) {
+        const primitive_key *key = &kind->keys[k];
+        if (key->kind == KEY_MATERIAL && key->required) shape_material(&spec, key->name, 0);
+        if (key->kind == KEY_NUMBER && key->required) SET(&spec, key->name, 0.5);
+        if (key->kind == KEY_COUNT && key->required) SET(&spec, key->name, 5);
+        if (key->kind == KEY_VECTOR && key->required)
+            SET(&spec, key->name, 1, 2, strcmp(key->name, "to_m") == 0 ? 9 : 3);
+    }
+    if (primitive_key_index(kind, "centre_m") >= 0) shape_set(&spec, "centre_m", centre_m, 3);
+    if (primitive_key_index(kind, "normal") >= 0) shape_set(&spec, "normal", normal, 3);
+    if (primitive_key_index(kind, "tangent") >= 0) shape_set(&spec, "tangent", tangent, 3);
+    if (strcmp(kind->name, "annulus") == 0) SET(&spec, "inner_radius_m", 0.25);
+    if (strcmp(kind->name, "boom") == 0) SET(&spec, "radius_m", 0.01);
+    if (strcmp(kind->name, "box") == 0) shape_material(&spec, "material", 0);
+    if (strcmp(kind->name, "facet") == 0)
+        shape_points(&spec, (const double[3][3]){{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 3);
+    return spec;
 }
+
+/* Copies have the area of the original, and those of a closed body its volume: none of them is
+ * inside out. The last of the copies is the original turned and reflected. */
+START_TEST(test_primitive_of_every_kind_is_repeated_and_mirrored)
+{
+    for (size_t kind = 0; primitive_kind_at(kind); kind++) {
+        if (strcmp(primitive_kind_at(kind)->name, "mesh") == 0) continue;
+        facet_list one = {0}, six = {0};
+        primitive_spec spec = any_shape(primitive_kind_at(kind));
+        shape_add(&spec, 0, &one);
+        spec = any_shape(primitive_kind_at(kind));
+        shape_repeat(&spec, 3, (const double[]){0, 0, 1}, 120);
+        spec.mirror = 3;
+        shape_add(&spec, 0, &six);
+        ck_assert_int_eq(six.n, 6 * one.n);
+        const surface single = surface_of(&one, 0, one.n), all = surface_of(&six, 0, six.n);
+        assert_rel(all.area_m2, 6 * single.area_m2, 1e-13);
+        if (norm3(single.vector_m2) < 1e-9 * single.area_m2)
+            assert_rel(all.volume_m3, 6 * single.volume_m3, 1e-9);
+        for (int k = 0; k < one.n; k++) {
+            double turn[9], want[3];
+            mat_turn((const double[]){0, 0, 1}, 240 * DEG, turn);
+            mat_vec(turn, one.items[k].normal, want);
+            want[2] = -want[2];
+            assert_near3(six.items[5 * one.n + k].normal, want, 1e-14);
+            mat_vec(turn, one.items[k].tangent, want);
+            want[2] = -want[2];
+            assert_near3(six.items[5 * one.n + k].tangent, want, 1e-14);
+        }
+        facet_list_free(&one);
+        facet_list_free(&six);
+    }
+}
+END_TEST
 
 START_TEST(test_revolved_check_refuses_what_cannot_be)
 {
@@ -562,10 +651,12 @@ int main(void)
     tcase_add_test(build, test_dish_build_puts_corners_on_paraboloid_looking_inwards);
     tcase_add_test(build, test_dish_build_converges_to_paraboloid);
     tcase_add_test(build, test_dish_tolerance_holds_for_sides_and_rings);
+    tcase_add_test(build, test_sphere_tolerance_gives_fewest_facets_that_keep_it);
     tcase_add_test(build, test_dish_with_back_is_closed_shell);
     tcase_add_test(build, test_wing_build_divides_its_length_in_panels_and_gaps);
     tcase_add_test(build, test_boom_build_is_prism_between_its_ends);
     tcase_add_test(build, test_primitive_copies_take_their_surfaces_along);
+    tcase_add_test(refused, test_primitive_of_every_kind_is_repeated_and_mirrored);
     tcase_add_test(refused, test_revolved_check_refuses_what_cannot_be);
     tcase_add_test(refused, test_wing_and_boom_check_refuse_what_has_no_room);
     suite_add_tcase(suite, build);
