@@ -223,9 +223,15 @@ START_TEST(test_crinkle_reports_its_statistics)
     ck_assert_int_eq(n, 512);
     assert_near(all, 4, 1e-9);
     assert_near(hypot(along, across), 4, 0.02); /* angles add as slopes do, but for third order */
-    double worst = 0;
-    for (int k = 0; k < list.n; k++)
-        worst = fmax(worst, acos(list.items[k].normal[2]) / DEG);
+    double worst = 0, x2 = 0, y2 = 0;
+    for (int k = 0; k < list.n; k++) { /* all have the same projected area */
+        const double *normal = list.items[k].normal;
+        worst = fmax(worst, acos(normal[2]) / DEG);
+        x2 += pow(atan(normal[0] / normal[2]) / DEG, 2) / list.n;
+        y2 += pow(atan(normal[1] / normal[2]) / DEG, 2) / list.n;
+    }
+    assert_rel(along, sqrt(x2), 1e-3);
+    assert_rel(across, sqrt(y2), 1e-3);
     assert_rel(most, worst, 1e-3); /* four digits are written */
     assert_rel(area, surface_of(&list, 0, list.n).area_m2, 1e-5);
     text_free(&report);

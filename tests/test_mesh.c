@@ -297,6 +297,38 @@ START_TEST(test_mesh_obj_names_line_and_column_of_errors)
 }
 END_TEST
 
+static size_t errors_of(const char *name, const char *bytes, size_t n, int lines[MESH_MAX_ERRORS])
+{
+    write_bytes(name, bytes, n);
+    mesh m;
+    glint_errors *errors = glint_errors_new();
+    ck_assert_int_eq(mesh_read(in_folder(name), PLACE_NONE, 1e7, &m, errors), GLINT_INPUT);
+    const size_t n_errors = glint_errors_error_count(errors);
+    ck_assert_uint_le(n_errors, MESH_MAX_ERRORS);
+    for (size_t k = 0; k < n_errors; k++)
+        lines[k] = glint_errors_get(errors, k)->line;
+    glint_errors_free(errors);
+    return n_errors;
+}
+
+START_TEST(test_mesh_obj_reports_all_errors_up_to_a_limit)
+{
+    /* A wrong vertex keeps its number: face 1 2 3 is right, and nothing is said of it. */
+    static const char wrong[] = "v 0 0 0\nv 1 0 x\nv 0 1 0\nf 1 2 3\nf 1 2 4\nfoo\nvn 0 0 0\n"
+                                "f 1//1 2 3\nf 1 2\n";
+    int lines[MESH_MAX_ERRORS];
+    ck_assert_uint_eq(errors_of("bad.obj", wrong, sizeof wrong - 1, lines), 5);
+    static const int want[] = {2, 5, 6, 7, 9};
+    for (int k = 0; k < 5; k++)
+        ck_assert_int_eq(lines[k], want[k]);
+    text t = {0};
+    for (int k = 0; k < 1000; k++)
+        text_add(&t, "v 0 0\n");
+    ck_assert_uint_eq(errors_of("bad.obj", t.data, t.length, lines), MESH_MAX_ERRORS);
+    text_free(&t);
+}
+END_TEST
+
 START_TEST(test_mesh_of_absent_or_other_files_is_refused_where_it_is_named)
 {
     static const struct {
@@ -870,6 +902,41 @@ START_TEST(test_mesh_smooth_deg_leaves_edges_of_box_sharp)
 }
 END_TEST
 
+/* A turned box as drawing programs write it: a normal of four digits for each face. They do not
+ * make it round. */
+START_TEST(test_mesh_with_rounded_normals_stays_flat)
+{
+    soup *s = box_soup(1, 2, 3, 2);
+    double turn[9];
+    mat_turn((const double[]){0.6, 0, 0.8}, 0.7, turn);
+    text t = {0};
+    for (int k = 0; k < s->n_points; k++) {
+        mat_vec(turn, s->point[k], s->point[k]);
+        text_printf(&t, "v %.6f %.6f %.6f\n", s->point[k][0], s->point[k][1], s->point[k][2]);
+    }
+    for (int k = 0; k < s->n; k++) {
+        double ab[3], ac[3], n[3];
+        sub3(s->point[s->triangle[k][1]], s->point[s->triangle[k][0]], ab);
+        sub3(s->point[s->triangle[k][2]], s->point[s->triangle[k][0]], ac);
+        cross3(ab, ac, n);
+        unit3(n, n);
+        text_printf(&t, "vn %.4f %.4f %.4f\nf", n[0], n[1], n[2]);
+        for (int j = 0; j < 3; j++)
+            text_printf(&t, " %d//%d", s->triangle[k][j] + 1, k + 1);
+        text_char(&t, '\n');
+    }
+    write_bytes("turned.obj", t.data, t.length);
+    text_free(&t);
+    free(s);
+    primitive_spec spec = mesh_shape("turned.obj");
+    facet_list list = {0};
+    free(mesh_add(&spec, &list));
+    ck_assert_int_eq(list.n, 6);
+    ck_assert_int_eq(list.n_surfaces, 0);
+    facet_list_free(&list);
+}
+END_TEST
+
 START_TEST(test_mesh_copies_keep_smooth_normals)
 {
     write_sphere("normals.obj", true);
@@ -1028,6 +1095,7 @@ int main(void)
     tcase_add_test(tcase, test_mesh_tangent_is_x_or_y_or_what_is_asked_for);
     tcase_add_test(tcase, test_mesh_obj_reads_what_the_format_allows);
     tcase_add_test(tcase, test_mesh_obj_names_line_and_column_of_errors);
+    tcase_add_test(tcase, test_mesh_obj_reports_all_errors_up_to_a_limit);
     tcase_add_test(tcase, test_mesh_of_absent_or_other_files_is_refused_where_it_is_named);
     tcase_add_test(tcase, test_mesh_obj_cuts_concave_polygons);
     tcase_add_test(tcase, test_mesh_stl_names_line_of_errors);
@@ -1044,6 +1112,7 @@ int main(void)
     tcase_add_test(tcase, test_mesh_merge_keeps_materials_and_bends_apart);
     tcase_add_test(tcase, test_mesh_with_smooth_normals_shines_steadily);
     tcase_add_test(tcase, test_mesh_smooth_deg_leaves_edges_of_box_sharp);
+    tcase_add_test(tcase, test_mesh_with_rounded_normals_stays_flat);
     tcase_add_test(tcase, test_mesh_copies_keep_smooth_normals);
     tcase_add_test(tcase, test_scenario_reads_mesh_beside_it_and_check_tells_of_it);
     tcase_add_test(tcase, test_scenario_mesh_wrong_is_refused);

@@ -47,6 +47,23 @@ static void write_facets(const char *name, const facet_list *list, normal_at *no
     text_free(&t);
 }
 
+/* Writes triangles as an STL text whose solid has a name. */
+static void write_triangles(const char *name, const facet_list *list)
+{
+    text t = {0};
+    text_add(&t, "solid ball\n");
+    for (int k = 0; k < list->n; k++) {
+        const double(*p)[3] = (const double(*)[3])list->vertices + list->items[k].first_vertex;
+        text_add(&t, "facet normal 0 0 0\nouter loop\n");
+        for (int v = 0; v < 3; v++)
+            text_printf(&t, "vertex %.17g %.17g %.17g\n", p[v][0], p[v][1], p[v][2]);
+        text_add(&t, "endloop\nendfacet\n");
+    }
+    text_add(&t, "endsolid ball\n");
+    write_bytes(name, t.data, t.length);
+    text_free(&t);
+}
+
 static primitive_spec round_shape(const char *kind)
 {
     primitive_spec spec = shape(kind);
@@ -99,6 +116,20 @@ START_TEST(test_mesh_of_flat_facets_shines_as_the_primitive_to_rounding)
             ck_assert_int_eq(copy.n, original.n);
             assert_same_light(&original, &copy, &paints[p], 1e-13);
         }
+}
+END_TEST
+
+START_TEST(test_mesh_of_stl_ball_shines_as_the_sphere_to_rounding)
+{
+    static const paint p = {"lambert", {0.4}};
+    facet_list original = {0}, copy = {0};
+    primitive_spec spec = sphere_shape(1.3, 1280);
+    shape_add(&spec, 0, &original);
+    write_triangles("ball.stl", &original);
+    spec = mesh_shape("ball.stl");
+    free(mesh_add(&spec, &copy));
+    ck_assert_int_eq(copy.n, 1280);
+    assert_same_light(&original, &copy, &p, 1e-13);
 }
 END_TEST
 
@@ -359,6 +390,7 @@ int main(void)
     tcase_set_timeout(tcase, 120);
     tcase_add_checked_fixture(tcase, folder_make, folder_remove);
     tcase_add_test(tcase, test_mesh_of_flat_facets_shines_as_the_primitive_to_rounding);
+    tcase_add_test(tcase, test_mesh_of_stl_ball_shines_as_the_sphere_to_rounding);
     tcase_add_test(tcase, test_mesh_with_normals_shines_as_the_curved_primitive);
     tcase_add_test(tcase, test_mesh_merged_has_the_shadows_of_its_triangles_and_of_boxes);
     tcase_add_test(tcase, test_mesh_probe_that_ships_shines_as_its_primitives);

@@ -286,7 +286,11 @@ static glint_status place_mesh(importer *im)
         return error_set(im->error, GLINT_INPUT, (place){spec->path, 0, 0},
                          "the mesh is %.3g m large; expected at least %g m: check unit or scale",
                          extent_m, LENGTH_MIN_M);
-    im->weld_m = spec->given[WELD] ? spec->value[WELD][0] : 1e-6 * extent_m;
+    const double wanted_m = spec->given[WELD] ? spec->value[WELD][0] : 1e-6 * extent_m;
+    double far_m = 0.0;
+    for (int j = 0; j < 3; j++)
+        far_m = fmax(far_m, fmax(fabs(lo[j]), fabs(hi[j])));
+    im->weld_m = fmax(wanted_m, 1e-15 * far_m); /* what a double resolves there */
     return GLINT_OK;
 }
 

@@ -1,7 +1,6 @@
 #include "facets/mesh_smooth.h"
 
 #include "base/vec.h"
-#include "facets/mesh_merge.h"
 
 #include <stdlib.h>
 
@@ -80,10 +79,14 @@ static bool take_normals(const mesh *m, const double (*normals)[3], int f, doubl
     return true;
 }
 
-static bool differs(const double corner[3][3], const double normal[3])
+/* Normals at corners nearer to each other than this are one, rad: files that write them with four
+ * digits round by up to 1.4e-4. */
+#define SAME_NORMAL_RAD 2e-4
+
+static bool differ(const double corner[3][3])
 {
     for (int j = 0; j < 3; j++)
-        if (angle3(corner[j], normal) > MERGE_ANGLE_RAD) return true;
+        if (angle3(corner[j], corner[(j + 1) % 3]) > SAME_NORMAL_RAD) return true;
     return false;
 }
 
@@ -97,7 +100,7 @@ static void smooth_face(const mesh *m, const double (*normals)[3], const smoothi
     if (given ? backward : !(how->below > 0.0)) return;
     for (int j = 0; j < 3 && !given; j++)
         mean_normal(m, normals, at, f, m->faces[f].corner[j], how->below, out->normal[f][j]);
-    out->is_smooth[f] = differs(out->normal[f], normals[f]);
+    out->is_smooth[f] = differ(out->normal[f]);
 }
 
 glint_status mesh_smooth(const mesh *m, const double (*normals)[3], const smoothing *how,

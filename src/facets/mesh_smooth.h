@@ -19,10 +19,9 @@ typedef struct mesh_corners {
 
 void mesh_corners_free(mesh_corners *c);
 
-/* A face is smooth when the normals at its corners are not all its own (within MERGE_ANGLE_RAD of
- * mesh_merge.h). Normals of the file that look away from a face's own do not count; such faces are
- * noted as DEFECT_BACKWARD, together with what the reader found. normals: unit, of the faces.
- * Errors: GLINT_INTERNAL (memory). */
+/* A face is smooth when the normals at its corners differ from each other. Normals of the file that
+ * look away from a face's own do not count; such faces are noted as DEFECT_BACKWARD, together with
+ * what the reader found. normals: unit, of the faces. Errors: GLINT_INTERNAL (memory). */
 glint_status mesh_smooth(const mesh *m, const double (*normals)[3], const smoothing *how,
                          mesh_corners *out, mesh_defects *defects, glint_error *error);
 
