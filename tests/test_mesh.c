@@ -375,6 +375,22 @@ START_TEST(test_mesh_obj_cuts_concave_polygons)
 }
 END_TEST
 
+/* A square with a square hole: the outline runs to the hole and back along the same line. */
+START_TEST(test_mesh_obj_cuts_polygon_with_hole)
+{
+    write_file("hole.obj",
+               "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nv 1 1 0\nv 2 1 0\nv 2 2 0\nv 1 2 0\n"
+               "f 1 2 3 4 1 5 8 7 6 5\n");
+    primitive_spec spec = mesh_shape("hole.obj");
+    facet_list list = {0};
+    free(mesh_add(&spec, &list));
+    const surface s = surface_of(&list, 0, list.n);
+    assert_rel(s.area_m2, 8, 1e-14);
+    assert_rel(s.vector_m2[2], 8, 1e-14);
+    facet_list_free(&list);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- STL */
 
 START_TEST(test_mesh_stl_names_line_of_errors)
@@ -616,10 +632,10 @@ START_TEST(test_mesh_defects_are_counted_with_their_lines)
          1},
         {HULL LAST_SIDE "v 3 3 3\nv 1 1 1\n", "2 vertices that no face uses\n", 6, 6, 1},
         {HULL LAST_SIDE "v 0.5 0 0\nf 1 9 2\n", "1 face without area (line 22)", 6, 6, 1},
-        {HULL LAST_SIDE "f 4 3 1\n", "1 face that stands there already (line 21)", 8, 6, 1},
+        {HULL LAST_SIDE "f 4 3 1\n", "1 face that stands there already (line 21)", 7, 6, 1},
         {HULL "f 4 5 1\nf 4 5 8\n", "1 face that looks the other way than its neighbours (line 19)",
          7, 6, 1},
-        {HULL LAST_SIDE "v 0.5 -1 0\nf 1 2 9\n", "1 edge of more than two faces (line 10)", 7, 7,
+        {HULL LAST_SIDE "v 0.5 -1 -1\nf 1 2 9\n", "1 edge of more than two faces (line 10)", 7, 7,
          1},
         /* inside out: z reflected */
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 -1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
@@ -781,6 +797,36 @@ START_TEST(test_mesh_merge_keeps_area_and_closure_of_random_solids)
         facet_list_free(&list);
         free(s);
     }
+}
+END_TEST
+
+/* A sheet of 3 x 3 squares with faces on both sides is two polygons, and nothing is wrong with it.
+ */
+START_TEST(test_mesh_merge_of_sheet_with_two_sides_gives_two_polygons)
+{
+    text t = {0};
+    for (int k = 0; k < 16; k++)
+        text_printf(&t, "v %d %d 0\n", k % 4, k / 4);
+    for (int k = 0; k < 9; k++) {
+        const int a = k / 3 * 4 + k % 3 + 1;
+        text_printf(&t, "f %d %d %d %d\nf %d %d %d %d\n", a, a + 1, a + 5, a + 4, a + 4, a + 5,
+                    a + 1, a);
+    }
+    write_bytes("sheet.obj", t.data, t.length);
+    text_free(&t);
+    primitive_spec spec = mesh_shape("sheet.obj");
+    facet_list list = {0};
+    char *report = mesh_add(&spec, &list);
+    ck_assert_ptr_null(strstr(report, "more than two"));
+    ck_assert_ptr_null(strstr(report, "other way"));
+    ck_assert_int_eq(list.n, 2);
+    for (int k = 0; k < 2; k++) {
+        ck_assert_int_eq(list.items[k].n_vertices, 4);
+        assert_near(list.items[k].area_m2, 9, 1e-14);
+    }
+    assert_near3(surface_of(&list, 0, 2).vector_m2, origin, 1e-14);
+    free(report);
+    facet_list_free(&list);
 }
 END_TEST
 
@@ -1098,6 +1144,7 @@ int main(void)
     tcase_add_test(tcase, test_mesh_obj_reports_all_errors_up_to_a_limit);
     tcase_add_test(tcase, test_mesh_of_absent_or_other_files_is_refused_where_it_is_named);
     tcase_add_test(tcase, test_mesh_obj_cuts_concave_polygons);
+    tcase_add_test(tcase, test_mesh_obj_cuts_polygon_with_hole);
     tcase_add_test(tcase, test_mesh_stl_names_line_of_errors);
     tcase_add_test(tcase, test_mesh_stl_binary_refuses_numbers_that_are_none);
     tcase_add_test(tcase, test_mesh_cut_at_every_byte_is_refused_or_whole_lines);
@@ -1109,6 +1156,7 @@ int main(void)
     tcase_add_test(tcase, test_mesh_repair_turns_faces_that_look_inwards);
     tcase_add_test(tcase, test_mesh_weld_joins_vertices_within_its_tolerance);
     tcase_add_test(tcase, test_mesh_merge_keeps_area_and_closure_of_random_solids);
+    tcase_add_test(tcase, test_mesh_merge_of_sheet_with_two_sides_gives_two_polygons);
     tcase_add_test(tcase, test_mesh_merge_keeps_materials_and_bends_apart);
     tcase_add_test(tcase, test_mesh_with_smooth_normals_shines_steadily);
     tcase_add_test(tcase, test_mesh_smooth_deg_leaves_edges_of_box_sharp);

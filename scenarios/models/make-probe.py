@@ -19,6 +19,11 @@ DISH_VERTEX = 1500.0  # mm, height of its deepest point
 DISH_SIDES, DISH_RINGS = 24, 5
 
 
+def number(value, digits):
+    """Text with so many digits; never -0."""
+    return f"{round(value, digits) + 0.0:.{digits}f}"
+
+
 class Mesh:
     """The lines of a file, and how many vertices and normals they have."""
 
@@ -31,13 +36,13 @@ class Mesh:
         self.lines.append(line)
 
     def vertex(self, x, y, z):
-        self.add(f"v {x:.4f} {y:.4f} {z:.4f}")
+        self.add("v " + " ".join(number(value, 4) for value in (x, y, z)))
         self.n_vertices += 1
         return self.n_vertices
 
     def normal(self, x, y, z):
         size = math.sqrt(x * x + y * y + z * z)
-        self.add(f"vn {x / size:.7f} {y / size:.7f} {z / size:.7f}")
+        self.add("vn " + " ".join(number(value / size, 7) for value in (x, y, z)))
         self.n_normals += 1
         return self.n_normals
 

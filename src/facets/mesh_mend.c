@@ -1,6 +1,7 @@
 #include "facets/mesh_mend.h"
 
 #include "base/vec.h"
+#include "facets/mesh_merge.h"
 #include "facets/weld.h"
 
 #include <limits.h>
@@ -149,6 +150,8 @@ static glint_status find_duplicates(mesh *m, bool repair, mesh_defects *d, glint
 
 /* --- edges --- */
 
+enum { MOST_PAIRED = 8 }; /* faces at one edge that are told apart */
+
 /* One side of a face, to be sorted by the edge that it runs along. */
 typedef struct edge_use {
     int low, high, half_edge;
@@ -194,6 +197,46 @@ static int run_end(const edge_use *uses, int n, int k)
     return end;
 }
 
+/* The unit normal of a face. */
+static void face_normal(const mesh *m, int f, double out[3])
+{
+    double ab[3], ac[3], across[3];
+    sub3(m->vertices[m->faces[f].corner[1]], m->vertices[m->faces[f].corner[0]], ab);
+    sub3(m->vertices[m->faces[f].corner[2]], m->vertices[m->faces[f].corner[0]], ac);
+    cross3(ab, ac, across);
+    unit3(across, out);
+}
+
+/* True when two half-edges run along an edge both ways, and their faces go on in one plane. */
+static bool goes_on(const mesh *m, int a, int b)
+{
+    if (origin_of(m, a) == origin_of(m, b)) return false;
+    double na[3], nb[3];
+    face_normal(m, a / 3, na);
+    face_normal(m, b / 3, nb);
+    return angle3(na, nb) <= MERGE_ANGLE_RAD;
+}
+
+/* Pairs the uses k .. end - 1 of an edge of more than two faces: of sheets that have faces on both
+ * sides each side goes on by itself. pair[i]: the half-edge across from use k + i, or -1. True when
+ * all are paired. */
+static bool pair_uses(const mesh *m, const edge_use *uses, int k, int end, int pair[MOST_PAIRED])
+{
+    for (int i = 0; i < MOST_PAIRED; i++)
+        pair[i] = -1;
+    if (end - k > MOST_PAIRED) return false;
+    bool all = true;
+    for (int i = 0; i < end - k; i++) {
+        for (int j = i + 1; j < end - k && pair[i] < 0; j++)
+            if (pair[j] < 0 && goes_on(m, uses[k + i].half_edge, uses[k + j].half_edge)) {
+                pair[i] = uses[k + j].half_edge;
+                pair[j] = uses[k + i].half_edge;
+            }
+        all = all && pair[i] >= 0;
+    }
+    return all;
+}
+
 glint_status mesh_twins(const mesh *m, int *twin, glint_error *error)
 {
     const int n = 3 * m->n_faces;
@@ -204,9 +247,15 @@ glint_status mesh_twins(const mesh *m, int *twin, glint_error *error)
     for (int k = 0, end; k < n; k = end) {
         end = run_end(uses, n, k);
         const int a = uses[k].half_edge, b = uses[end - 1].half_edge;
-        if (end - k != 2 || origin_of(m, a) == origin_of(m, b)) continue;
-        twin[a] = b;
-        twin[b] = a;
+        int pair[MOST_PAIRED];
+        if (end - k == 2 && origin_of(m, a) != origin_of(m, b)) {
+            twin[a] = b;
+            twin[b] = a;
+        } else if (end - k > 2) {
+            (void)pair_uses(m, uses, k, end, pair);
+            for (int i = k; i < end && i < k + MOST_PAIRED; i++)
+                twin[uses[i].half_edge] = pair[i - k];
+        }
     }
     free(uses);
     return GLINT_OK;
@@ -260,11 +309,17 @@ static glint_status find_neighbours(pieces *p, mesh_defects *d, glint_error *err
         end = run_end(uses, n, k);
         const int a = uses[k].half_edge, b = uses[end - 1].half_edge;
         if (end - k == 1) mesh_defect_note(d, DEFECT_OPEN, m->faces[a / 3].line);
-        if (end - k > 2) mesh_defect_note(d, DEFECT_CROWDED, m->faces[a / 3].line);
-        if (end - k != 2) continue;
-        p->neighbour[a] = b / 3;
-        p->neighbour[b] = a / 3;
-        p->against[a] = p->against[b] = origin_of(m, a) == origin_of(m, b);
+        if (end - k == 2) {
+            p->neighbour[a] = b / 3;
+            p->neighbour[b] = a / 3;
+            p->against[a] = p->against[b] = origin_of(m, a) == origin_of(m, b);
+        }
+        if (end - k <= 2) continue;
+        int pair[MOST_PAIRED];
+        if (!pair_uses(m, uses, k, end, pair))
+            mesh_defect_note(d, DEFECT_CROWDED, m->faces[a / 3].line);
+        for (int i = k; i < end && i < k + MOST_PAIRED; i++)
+            if (pair[i - k] >= 0) p->neighbour[uses[i].half_edge] = pair[i - k] / 3;
     }
     free(uses);
     return GLINT_OK;

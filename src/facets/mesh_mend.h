@@ -10,7 +10,7 @@ typedef enum mesh_defect {
     DEFECT_DUPLICATE,  /* faces that stand there already, looking the same way */
     DEFECT_REVERSED,   /* faces that look the other way than most of their piece */
     DEFECT_INSIDE_OUT, /* faces of closed pieces that enclose a negative volume */
-    DEFECT_CROWDED,    /* edges of more than two faces */
+    DEFECT_CROWDED,    /* edges of more than two faces, but of sheets with faces on both sides */
     DEFECT_OPEN,       /* edges of one face */
     DEFECT_BACKWARD,   /* faces whose normals in the file look the other way */
     N_DEFECTS
@@ -39,7 +39,8 @@ bool mesh_defect_is_mended(mesh_defect defect);
 glint_status mesh_mend(mesh *m, double same_m, bool repair, mesh_defects *out, glint_error *error);
 
 /* The half-edge that runs along the same edge the other way, for each of the 3 n_faces half-edges
- * (3 face + j runs from corner j to the next), or -1: where an edge has not exactly these two.
+ * (3 face + j runs from corner j to the next), or -1. An edge has these two alone; or of its
+ * more faces, these two go on in one plane.
  * Errors: GLINT_INTERNAL (memory). */
 glint_status mesh_twins(const mesh *m, int *twin, glint_error *error);
 
