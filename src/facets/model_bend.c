@@ -1,5 +1,4 @@
 /* Imported facets that look like a curve. */
-#include "base/constants.h"
 #include "base/vec.h"
 #include "facets/model.h"
 #include "facets/solids.h"
@@ -34,7 +33,7 @@ static bool has_flat_imports(const model *m)
 /* Collects the edges that may belong to a curve; returns how many. */
 static int collect_edges(const model *m, const solids *s, bent_edge *out)
 {
-    static const double SHARP = 40 * DEG, PLANE = 1e-4; /* rad */
+    static const double PLANE = 1e-4; /* rad */
     int n = 0;
     for (int e = 0; e < s->n_edges; e++) {
         const facet *left = &m->polygons.items[s->edges[e].left];
@@ -42,7 +41,8 @@ static int collect_edges(const model *m, const solids *s, bent_edge *out)
         if (!is_flat_import(left) || !is_flat_import(right) || left->material != right->material)
             continue;
         const double bend_rad = angle3(left->normal, right->normal);
-        if (bend_rad > PLANE && bend_rad < SHARP) out[n++] = (bent_edge){left->material, bend_rad};
+        if (bend_rad > PLANE && bend_rad < MODEL_MOST_BEND_RAD)
+            out[n++] = (bent_edge){left->material, bend_rad};
     }
     return n;
 }

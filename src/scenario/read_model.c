@@ -494,29 +494,47 @@ static double narrowest_width(const scenario_material *material, int n_bands)
 }
 
 /* Flat facets of a mesh that bend by more than a lobe is wide make it flicker. */
+static void warn_of_mesh(reading *rd, scenario_material *material, double width_rad,
+                         double bend_rad)
+{
+    if (!(width_rad < 0.5 * bend_rad)) return;
+    material->flicker_rad = bend_rad;
+    errors_warn(rd->errors, material->where,
+                "the lobe of '%s' is %.3g deg wide, and the mesh made of it bends by %.3g deg "
+                "from facet to facet: it flickers; smooth normals in the file, or smooth_deg, "
+                "make it steady",
+                material->name, width_rad / DEG, bend_rad / DEG);
+}
+
+static bool has_mesh(const model *m)
+{
+    for (int k = 0; k < m->n_facets; k++)
+        if (m->polygons.items[k].imported) return true;
+    return false;
+}
+
 static void warn_of_meshes(reading *rd)
 {
     satellite *sat = &rd->s->satellite;
-    double *bends_rad = malloc((size_t)sat->n_materials * sizeof *bends_rad);
-    if (!bends_rad || model_material_bends(&sat->model, bends_rad, NULL)) {
-        free(bends_rad);
+    const size_t n = (size_t)sat->n_materials;
+    if (!has_mesh(&sat->model)) return;
+    double *numbers = malloc(2 * n * sizeof *numbers);
+    if (!numbers) {
         reading_no_memory(rd);
         return;
     }
-    for (int m = 0; m < sat->n_materials; m++) {
-        scenario_material *material = &sat->materials[m];
-        const double bend_rad = bends_rad[m];
-        const double width_rad =
-            bend_rad > 0 ? narrowest_width(material, rd->s->n_bands) : HUGE_VAL;
-        if (!(width_rad < 0.5 * bend_rad)) continue;
-        material->flicker_rad = bend_rad;
-        errors_warn(rd->errors, material->where,
-                    "the lobe of '%s' is %.3g deg wide, and the mesh made of it bends by %.3g deg "
-                    "from facet to facet: it flickers; smooth normals in the file, or smooth_deg, "
-                    "make it steady",
-                    material->name, width_rad / DEG, bend_rad / DEG);
+    double *widths_rad = numbers, *bends_rad = numbers + n;
+    bool some_lobe = false; /* that could flicker; else nobody need look at the edges */
+    for (size_t m = 0; m < n; m++) {
+        widths_rad[m] = narrowest_width(&sat->materials[m], rd->s->n_bands);
+        some_lobe |= widths_rad[m] < 0.5 * MODEL_MOST_BEND_RAD;
     }
-    free(bends_rad);
+    if (some_lobe && model_material_bends(&sat->model, bends_rad, NULL))
+        reading_no_memory(rd);
+    else if (some_lobe)
+        for (size_t m = 0; m < n; m++)
+            warn_of_mesh(rd, &sat->materials[m], widths_rad[m], bends_rad[m]);
+    free(numbers);
 }
 
 void read_model_tables(reading *rd, reader *r)
