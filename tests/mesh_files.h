@@ -8,8 +8,8 @@
 
 /* A surface in the making: triangles over points. */
 typedef struct soup {
-    double point[5000][3];
-    int triangle[10000][3];
+    double point[12000][3];
+    int triangle[20000][3];
     int n_points, n;
 } soup;
 

@@ -800,6 +800,48 @@ START_TEST(test_mesh_merge_keeps_area_and_closure_of_random_solids)
 }
 END_TEST
 
+/* A turned box of 19 200 triangles in mm with three digits, as programs write it: each of them is
+ * tilted by rounding, the faces are not. A cylinder of 720 sides is no plane anywhere. */
+START_TEST(test_mesh_merge_sees_planes_through_rounding)
+{
+    soup *s = box_soup(1, 2, 3, 40);
+    double turn[9];
+    mat_turn((const double[]){0.6, 0, 0.8}, 0.7, turn);
+    text t = {0};
+    for (int k = 0; k < s->n_points; k++)
+        mat_vec(turn, s->point[k], s->point[k]);
+    for (int k = 0; k < s->n_points; k++)
+        text_printf(&t, "v %.3f %.3f %.3f\n", 1e3 * s->point[k][0], 1e3 * s->point[k][1],
+                    1e3 * s->point[k][2]);
+    for (int k = 0; k < s->n; k++)
+        text_printf(&t, "f %d %d %d\n", s->triangle[k][0] + 1, s->triangle[k][1] + 1,
+                    s->triangle[k][2] + 1);
+    write_bytes("rounded.obj", t.data, t.length);
+    free(s);
+    primitive_spec spec = mesh_shape("rounded.obj");
+    SET(&spec, "unit", 2);
+    facet_list list = {0};
+    free(mesh_add(&spec, &list));
+    ck_assert_int_eq(list.n, 6);
+    assert_rel(surface_of(&list, 0, 6).area_m2, 22, 1e-6); /* 5e-7 m in each corner */
+    assert_rel(surface_of(&list, 0, 6).volume_m3, 6, 1e-6);
+    facet_list_free(&list);
+    text_clear(&t);
+    for (int k = 0; k < 720; k++)
+        text_printf(&t, "v %.6f %.6f 0\nv %.6f %.6f 0.5\n", cos(0.5 * DEG * k), sin(0.5 * DEG * k),
+                    cos(0.5 * DEG * k), sin(0.5 * DEG * k));
+    for (int k = 0; k < 720; k++)
+        text_printf(&t, "f %d %d %d %d\n", 2 * k + 1, (2 * k + 2) % 1440 + 1,
+                    (2 * k + 2) % 1440 + 2, 2 * k + 2);
+    write_bytes("tube.obj", t.data, t.length);
+    text_free(&t);
+    spec = mesh_shape("tube.obj");
+    free(mesh_add(&spec, &list));
+    ck_assert_int_eq(list.n, 720);
+    facet_list_free(&list);
+}
+END_TEST
+
 /* A sheet of 3 x 3 squares with faces on both sides is two polygons, and nothing is wrong with it.
  */
 START_TEST(test_mesh_merge_of_sheet_with_two_sides_gives_two_polygons)
@@ -1156,6 +1198,7 @@ int main(void)
     tcase_add_test(tcase, test_mesh_repair_turns_faces_that_look_inwards);
     tcase_add_test(tcase, test_mesh_weld_joins_vertices_within_its_tolerance);
     tcase_add_test(tcase, test_mesh_merge_keeps_area_and_closure_of_random_solids);
+    tcase_add_test(tcase, test_mesh_merge_sees_planes_through_rounding);
     tcase_add_test(tcase, test_mesh_merge_of_sheet_with_two_sides_gives_two_polygons);
     tcase_add_test(tcase, test_mesh_merge_keeps_materials_and_bends_apart);
     tcase_add_test(tcase, test_mesh_with_smooth_normals_shines_steadily);

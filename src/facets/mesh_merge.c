@@ -5,6 +5,11 @@
 
 #include <stdlib.h>
 
+typedef struct mean_plane {
+    double normal_sum[3], point_sum[3], weight;
+    double normal[3], point[3]; /* unit; in it */
+} mean_plane;
+
 /* Polygons as rings of half-edges. Half-edge 3 f + j begins as the side of face f from corner j. */
 typedef struct merger {
     const mesh *mesh;
@@ -16,6 +21,7 @@ typedef struct merger {
     int *queue;                /* owned; n_faces: faces of one region */
     int *edges;                /* owned; half-edges of one region, or of one ring */
     int *uses;                 /* owned; by vertex: corners of polygons there */
+    mean_plane plane;          /* of the region */
 } merger;
 
 static int vertex_of(const merger *g, int h)
@@ -30,23 +36,62 @@ static const double *point_of(const merger *g, int h)
 
 /* --- planes --- */
 
-static bool lies_in_plane(const merger *g, int face, int seed)
+/* Cross product of two sides of a face: along its normal, twice its area long. */
+static void across_of(const merger *g, int face, double out[3])
 {
-    const double *normal = g->normals[seed], *at = point_of(g, 3 * seed);
-    if (angle3(g->normals[face], normal) > MERGE_ANGLE_RAD) return false;
+    double ab[3], ac[3];
+    sub3(point_of(g, 3 * face + 1), point_of(g, 3 * face), ab);
+    sub3(point_of(g, 3 * face + 2), point_of(g, 3 * face), ac);
+    cross3(ab, ac, out);
+}
+
+/* By how much the normal of a face may be off its plane, rad: corners are only known to flat_m,
+ * which tilts a low triangle. */
+static double tilt_allowed(const merger *g, int face)
+{
+    static const double MOST = 3e-4; /* rad */
+    double longest2 = 0.0, across[3];
+    for (int j = 0; j < 3; j++) {
+        double side[3];
+        sub3(point_of(g, 3 * face + (j + 1) % 3), point_of(g, 3 * face + j), side);
+        longest2 = fmax(longest2, dot3(side, side));
+    }
+    across_of(g, face, across);
+    const double height_m = norm3(across) / sqrt(longest2);
+    return MERGE_ANGLE_RAD + fmin(MOST, 2.0 * g->flat_m / height_m);
+}
+
+/* The mean plane of a region: sums over its faces, weighted by their area. */
+static void plane_add(mean_plane *p, const merger *g, int face)
+{
+    double across[3];
+    across_of(g, face, across);
+    const double weight = norm3(across);
+    add3(p->normal_sum, across, p->normal_sum);
+    for (int j = 0; j < 3; j++)
+        add_scaled3(p->point_sum, weight / 3.0, point_of(g, 3 * face + j), p->point_sum);
+    p->weight += weight;
+    unit3(p->normal_sum, p->normal);
+    scale3(p->point_sum, 1.0 / p->weight, p->point);
+}
+
+static bool touches_plane(const merger *g, int face, const mean_plane *p)
+{
     for (int j = 0; j < 3; j++) {
         double d[3];
-        sub3(point_of(g, 3 * face + j), at, d);
-        if (fabs(dot3(d, normal)) > g->flat_m) return false;
+        sub3(point_of(g, 3 * face + j), p->point, d);
+        if (fabs(dot3(d, p->normal)) > g->flat_m) return false;
     }
     return true;
 }
 
-/* The faces that hang together with `seed` in its plane; they stand in the queue. Returns how many.
- */
-static int flood(merger *g, int seed)
+/* The faces that hang together with `seed` in its plane, or in their mean plane, which is written
+ * to g->plane; they stand in the queue. Returns how many. */
+static int flood(merger *g, int seed, bool mean)
 {
     int n = 0;
+    g->plane = (mean_plane){0};
+    plane_add(&g->plane, g, seed);
     g->region[seed] = seed;
     g->queue[n++] = seed;
     for (int k = 0; k < n && g->group[seed] >= 0; k++)
@@ -55,12 +100,27 @@ static int flood(merger *g, int seed)
             if (twin < 0) continue;
             const int other = twin / 3;
             if (g->region[other] >= 0 || g->group[other] != g->group[seed] ||
-                !lies_in_plane(g, other, seed))
+                angle3(g->normals[other], g->plane.normal) > tilt_allowed(g, other) ||
+                !touches_plane(g, other, &g->plane))
                 continue;
             g->region[other] = seed;
             g->queue[n++] = other;
+            if (mean) plane_add(&g->plane, g, other);
         }
     return n;
+}
+
+/* As flood: in the mean plane where all faces found lie in it in the end, too. */
+static int find_region(merger *g, int seed)
+{
+    const int n = flood(g, seed, true);
+    bool flat = true;
+    for (int k = 0; k < n && flat; k++)
+        flat = touches_plane(g, g->queue[k], &g->plane);
+    if (flat) return n;
+    for (int k = 0; k < n; k++)
+        g->region[g->queue[k]] = -1;
+    return flood(g, seed, false);
 }
 
 /* --- joining --- */
@@ -141,12 +201,12 @@ static bool join_all(merger *g, int n, int seed)
     for (int k = 0; k < met; k++) {
         const int before = g->edges[k], at = g->edges[(k + 1) % met],
                   after = g->edges[(k + 2) % met];
-        if (!turns_left(g, before, at, after, g->normals[seed])) return false;
+        if (!turns_left(g, before, at, after, g->plane.normal)) return false;
         double in[3], on[3], c[3];
         sub3(point_of(g, at), point_of(g, before), in);
         sub3(point_of(g, after), point_of(g, at), on);
         cross3(in, on, c);
-        turned += atan2(dot3(c, g->normals[seed]), dot3(in, on));
+        turned += atan2(dot3(c, g->plane.normal), dot3(in, on));
     }
     if (turned > 9.0) return false; /* about itself more than once: 2 pi is one revolution */
     for (int k = 0; k < n; k++)
@@ -187,7 +247,7 @@ static glint_status join_some(merger *g, int n, int seed, glint_error *error)
         }
     qsort(sides, (size_t)n_sides, sizeof *sides, compare_sides);
     for (int k = 0; k < n_sides; k++)
-        if (g->next[sides[k].half_edge] >= 0) join(g, sides[k].half_edge, g->normals[seed]);
+        if (g->next[sides[k].half_edge] >= 0) join(g, sides[k].half_edge, g->plane.normal);
     free(sides);
     return GLINT_OK;
 }
@@ -196,7 +256,7 @@ static glint_status join_regions(merger *g, glint_error *error)
 {
     for (int f = 0; f < g->mesh->n_faces; f++) {
         if (g->region[f] >= 0) continue;
-        const int n = flood(g, f);
+        const int n = find_region(g, f);
         if (n == 1 || join_all(g, n, f)) continue;
         const glint_status status = join_some(g, n, f, error);
         if (status) return status;

@@ -15,10 +15,11 @@ typedef struct mesh_polygons {
 
 void mesh_polygons_free(mesh_polygons *p);
 
-/* Faces that adjoin along an edge of exactly two are one polygon where they have the same `group`
- * (one number per face; negative: never merged), lie within flat_m (m) of one plane, their normals
- * within MERGE_ANGLE_RAD, and the polygon is convex; corners at which it goes straight on within
- * flat_m are dropped unless a neighbour turns there. Areas and outlines are kept to flat_m.
+/* Faces that adjoin along an edge (mesh_twins) are one polygon where they have the same `group`
+ * (one number per face; negative: never merged), lie within flat_m (m) of their mean plane, look
+ * the same way, and the polygon is convex; corners at which it goes straight on within flat_m are
+ * dropped unless a neighbour turns there. Faces look the same way within MERGE_ANGLE_RAD and what
+ * flat_m makes of low triangles, at most 3e-4 rad more. Areas and outlines are kept to flat_m.
  * normals: unit, one per face. Errors: GLINT_INTERNAL (memory). */
 glint_status mesh_merge(const mesh *m, const int *group, const double (*normals)[3], double flat_m,
                         mesh_polygons *out, glint_error *error);
