@@ -170,11 +170,12 @@ static void join(merger *g, int h, const double normal[3])
     g->next[in2] = on2, g->before[on2] = in2;
 }
 
-/* True when the sides of a region that no other of its faces shares form one convex ring; links
- * them then, and drops the others. n: faces in the queue. */
-static bool join_all(merger *g, int n, int seed)
+/* Runs along the sides of a region that no other of its faces shares, after a side about its end
+ * from face to face until the next one; they stand in g->edges. n: faces in the queue. Returns how
+ * many there are, or 0 where they are not one ring. */
+static int walk_rim(merger *g, int n, int seed)
 {
-    int n_rim = 0, start = -1;
+    int n_rim = 0, start = -1, met = 0;
     for (int k = 0; k < n; k++)
         for (int j = 0; j < 3; j++) {
             const int h = 3 * g->queue[k] + j, twin = g->twin[h];
@@ -182,21 +183,24 @@ static bool join_all(merger *g, int n, int seed)
             start = h;
             n_rim++;
         }
-    if (start < 0) return false;
-    /* Runs along the rim: after a side, about its end from face to face until the next one. */
-    int met = 0;
+    if (start < 0) return 0;
     for (int h = start; met == 0 || h != start; met++) {
-        if (met == n_rim) return false;
+        if (met == n_rim) return 0;
         int on = 3 * (h / 3) + (h % 3 + 1) % 3;
         for (int turns = 0; g->twin[on] >= 0 && g->region[g->twin[on] / 3] == seed; turns++) {
-            if (turns > 3 * n) return false;
+            if (turns > 3 * n) return 0;
             const int across = g->twin[on];
             on = 3 * (across / 3) + (across % 3 + 1) % 3;
         }
         g->edges[met] = h;
         h = on;
     }
-    if (met != n_rim) return false; /* holes */
+    return met == n_rim ? met : 0; /* else there are holes */
+}
+
+/* True when the first `met` of g->edges turn left all along, and about themselves once. */
+static bool is_convex_ring(const merger *g, int met)
+{
     double turned = 0.0;
     for (int k = 0; k < met; k++) {
         const int before = g->edges[k], at = g->edges[(k + 1) % met],
@@ -208,7 +212,14 @@ static bool join_all(merger *g, int n, int seed)
         cross3(in, on, c);
         turned += atan2(dot3(c, g->plane.normal), dot3(in, on));
     }
-    if (turned > 9.0) return false; /* about itself more than once: 2 pi is one revolution */
+    return turned < 9.0; /* 2 pi is one revolution */
+}
+
+/* True when the rim of a region is one convex ring; links it then, and drops the other sides. */
+static bool join_all(merger *g, int n, int seed)
+{
+    const int met = walk_rim(g, n, seed);
+    if (met == 0 || !is_convex_ring(g, met)) return false;
     for (int k = 0; k < n; k++)
         for (int j = 0; j < 3; j++)
             g->next[3 * g->queue[k] + j] = -1;
