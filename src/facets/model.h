@@ -111,4 +111,14 @@ glint_status model_component_describe(const model *m, int c, model_component_fac
 /* Area of a material over the whole model, m^2, and its number of facets (NULL allowed). */
 double model_material_area(const model *m, int material, int *n_facets);
 
+/* Edges of a mesh that bend by more are meant to be edges, rad: 40 deg. */
+#define MODEL_MOST_BEND_RAD 0.698
+
+/* How imported facets of each material look like a curve: bends_rad (n_materials) gets the angle,
+ * rad, below which three quarters of those edges bend at which two of them meet that do not know of
+ * a curved surface, counting edges that bend by less than MODEL_MOST_BEND_RAD. 0 where there are
+ * fewer than 6 such edges. A lobe narrower than half of it flickers. Errors: GLINT_INTERNAL
+ * (memory). */
+glint_status model_material_bends(const model *m, double *bends_rad, glint_error *error);
+
 #endif

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void report_time(const glint_scenario *s, text *t)
 {
@@ -65,6 +66,16 @@ static void report_hinge(const hinge *h, bool has_time, text *t)
         text_printf(t, " between %g and %g deg", h->limits[0] / DEG, h->limits[1] / DEG);
 }
 
+/* Lines on the primitives of a component, set off from its own. */
+static void report_primitives(const char *lines, text *t)
+{
+    for (const char *line = lines; line && *line;) {
+        const size_t n = strcspn(line, "\n");
+        text_printf(t, "            %.*s\n", (int)n, line);
+        line += n + (line[n] == '\n');
+    }
+}
+
 static glint_status report_components(const glint_scenario *s, text *t, glint_error *error)
 {
     const satellite *sat = &s->satellite;
@@ -92,6 +103,7 @@ static glint_status report_components(const glint_scenario *s, text *t, glint_er
             text_printf(t, "            x %.4g to %.4g, y %.4g to %.4g, z %.4g to %.4g m\n",
                         facts.lo_m[0], facts.hi_m[0], facts.lo_m[1], facts.hi_m[1], facts.lo_m[2],
                         facts.hi_m[2]);
+        report_primitives(component->report, t);
     }
     return GLINT_OK;
 }

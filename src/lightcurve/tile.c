@@ -1,5 +1,6 @@
 #include "lightcurve/tile.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,6 +22,22 @@ glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_
         *out = NULL;
     }
     return status;
+}
+
+glint_status tile_fit_threads(int n_facets, int wanted, int *n_threads, glint_error *error)
+{
+    /* What visibility_scratch_make takes for a facet, bytes: its corners and its bounds as the Sun
+     * and as the observer see them; rather too much. */
+    static const double VIEWS = 512;
+    const double bytes = n_facets * (TILE * sizeof(double) + VIEWS);
+    if (bytes > TILE_MOST_SHADOW_BYTES)
+        return error_set(error, GLINT_INPUT, PLACE_NONE,
+                         "the shadows of %d facets take %.1f GB of work space; expected at most "
+                         "%.1f GB: take fewer facets, or self_shadows = \"none\"",
+                         n_facets, bytes * 1e-9, TILE_MOST_SHADOW_BYTES * 1e-9);
+    const double fitting = floor(TILE_MOST_SHADOW_BYTES / fmax(bytes, 1.0));
+    *n_threads = fitting < wanted ? (int)fitting : wanted;
+    return GLINT_OK;
 }
 
 glint_status tile_worker_make(const glint_scenario *s, const visibility *plan, tile_worker *w,
