@@ -6,9 +6,6 @@
 
 #include <stdlib.h>
 
-/* What rises over a facet's plane by less than this fraction of the model's size touches it: room
- * for coordinates written with 10 digits. Shadows of such things are left out. */
-#define CONTACT 1e-10
 /* Rounding error of coordinates after a rotation and a shift, over the model's size: 1e-16 for each
  * of a dozen operations, and some room. */
 #define NEAR 1e-14
@@ -89,7 +86,7 @@ static void place_planes(planner *p)
         out->offset_m = sum / f->n_vertices;
         for (int v = 0; v < f->n_vertices; v++)
             off_m = fmax(off_m, fabs(dot3(out->normal, p->vertices[ring[v]]) - out->offset_m));
-        out->contact_m = CONTACT * plan->size_m + 2.0 * off_m;
+        out->contact_m = VISIBILITY_CONTACT * plan->size_m + 2.0 * off_m;
         for (size_t j = 0; j < 3; j++)
             plan->normals[j * (size_t)plan->n_facets + (size_t)k] = f->normal[j];
     }
