@@ -153,6 +153,7 @@ static void keep_for_visibility(const satellite *sat, const moment *m, const dou
 {
     copy3(m->sun, out->sun[k]);
     copy3(m->observer, out->observer[k]);
+    if (worker->body) memcpy(worker->body[k], body_gcrs, sizeof worker->body[k]);
     if (worker->poses)
         place_components(sat, body_gcrs, (const double(*)[9])worker->component_gcrs,
                          worker->poses + (size_t)k * (size_t)sat->n_components);

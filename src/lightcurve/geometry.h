@@ -34,6 +34,7 @@ typedef struct geometry_worker {
         *component_gcrs)[9]; /* n_components: v_component = R v_gcrs (or body), scratch; owned */
     visibility_pose *poses;  /* TILE x n_components, in the frame of tile_geometry.sun; owned; NULL
                                 where  nobody asks where components are */
+    double (*body)[9];       /* TILE; v_body = R v of that frame; owned; NULL likewise */
 } geometry_worker;
 
 /* Fills a tile and the light in each of the n_components frames.

@@ -46,6 +46,7 @@ void tile_worker_free(tile_worker *w)
     free(w->x);
     free(w->geometry.component_gcrs);
     free(w->geometry.poses);
+    free(w->geometry.body);
     free(w->visible);
     visibility_scratch_free(w->scratch);
     *w = (tile_worker){0};
