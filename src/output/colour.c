@@ -41,8 +41,8 @@ double colour_lightness(colour c)
 /* The hues are a parabola in the plane of a and b through these, at t = 0, 1/2 and 1. */
 colour colour_scale(double t)
 {
-    static const double DARKEST = 0.24, LIGHTEST = 0.96;
-    static const double A[3] = {0.00, 0.14, -0.02}, B[3] = {-0.13, 0.05, 0.13};
+    static const double DARKEST = 0.24, LIGHTEST = 0.94;
+    static const double A[3] = {0.02, 0.125, -0.03}, B[3] = {-0.11, 0.035, 0.11};
     t = clamp(t);
     const double start = (1 - t) * (1 - 2 * t), middle = 4 * t * (1 - t), end = t * (2 * t - 1);
     return colour_oklab(DARKEST + (LIGHTEST - DARKEST) * t,

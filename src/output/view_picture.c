@@ -1,4 +1,5 @@
 /* The picture of a satellite: its pieces in colours, edges, a scale, and what the colours mean. */
+#include "base/constants.h"
 #include "output/colour.h"
 #include "output/picture.h"
 #include "output/utf8.h"
@@ -7,9 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double DEG = 0.017453292519943295; /* rad */
-static const double TURN = 6.283185307179586;   /* rad */
 
 /* Layout, in px of a picture of 1200 x 900; others are scaled. */
 enum {
@@ -243,7 +241,7 @@ static glint_status paint_pieces(const sketch *s, glint_error *error)
 /* Edges that are drawn: ends, and where the surface turns or changes. */
 static bool is_drawn(const glint_view_edge *e)
 {
-    static const double LEAST_TURN = 0.3; /* rad; what turns less is the net of a curved mesh */
+    static const double LEAST_TURN = 0.5; /* rad; what turns less is the net of a curved mesh */
     if (e->is_outline || e->parts_materials) return true;
     return !e->is_smooth && e->turn_rad > LEAST_TURN;
 }
@@ -251,14 +249,17 @@ static bool is_drawn(const glint_view_edge *e)
 /* A pale line below each dark one shows it on dark surfaces, too. */
 static void draw_edges(const sketch *s)
 {
+    static const double LEAST_LENGTH = 0.15; /* what rounding leaves of an edge makes no dot */
     size_t n;
     const glint_view_edge *edges = glint_view_edges(s->view, &n);
     cairo_set_line_cap(s->pen, CAIRO_LINE_CAP_ROUND);
     for (int round = 0; round < 2; round++) {
         for (size_t k = 0; k < n; k++) {
-            if (!is_drawn(&edges[k])) continue;
-            cairo_move_to(s->pen, x_of(s, edges[k].from_m), y_of(s, edges[k].from_m));
-            cairo_line_to(s->pen, x_of(s, edges[k].to_m), y_of(s, edges[k].to_m));
+            const double *from = edges[k].from_m, *to = edges[k].to_m;
+            const double length = s->scale * hypot(to[0] - from[0], to[1] - from[1]);
+            if (!is_drawn(&edges[k]) || length < LEAST_LENGTH) continue;
+            cairo_move_to(s->pen, x_of(s, from), y_of(s, from));
+            cairo_line_to(s->pen, x_of(s, to), y_of(s, to));
         }
         if (round == 0)
             cairo_set_source_rgba(s->pen, 1, 1, 1, 0.35);
@@ -305,9 +306,8 @@ static void write_viewer(const sketch *s, char *out, size_t size)
     static const char *const FROM[] = {"seen by the observer", "seen from the Sun",
                                        "seen from a direction in the body frame"};
     const glint_view_scene *scene = s->scene;
-    int n = snprintf(out, size, "%s",
-                     scene->is_model && scene->from == GLINT_FROM_OBSERVER ? "seen from aside"
-                                                                           : FROM[scene->from]);
+    const bool is_aside = scene->is_model && scene->from == GLINT_FROM_OBSERVER;
+    int n = snprintf(out, size, "%s", FROM[is_aside ? GLINT_FROM_DIRECTION : scene->from]);
     if (scene->has_range)
         n += snprintf(out + n, size - (size_t)n, " at %.4g km", scene->range_m / 1000);
     n += snprintf(out + n, size - (size_t)n, ",  phase angle %.1f\302\260",
@@ -407,6 +407,25 @@ static void draw_tick(const sketch *s, double x, double y, double value)
     write_text(s, label, SMALL_SIZE, ALIGN_LEFT, x + 11, y + 5, 80);
 }
 
+/* A tick at every power of ten. */
+static void draw_decades(const sketch *s, double x, double y, double height, double top)
+{
+    const int highest = (int)floor(log10(top) + 1e-9);
+    for (int k = highest; k >= highest - DECADES; k--) {
+        const double below = (log10(top) - k) / DECADES;
+        if (below <= 1 + 1e-9) draw_tick(s, x, y + height * below, pow(10.0, k));
+    }
+}
+
+/* A tick at every fourth or fifth of the top, whichever gives the rounder numbers. */
+static void draw_steps(const sketch *s, double x, double y, double height, double top)
+{
+    const int first_digits = (int)lround(10 * top / pow(10.0, floor(log10(top) + 1e-9)));
+    const int n = first_digits == 10 || first_digits % 4 ? 5 : 4;
+    for (int k = 0; k <= n; k++)
+        draw_tick(s, x, y + height * (n - k) / n, top * k / n);
+}
+
 /* Scale of the radiance factor; returns the y below it. */
 static double draw_colour_bar(const sketch *s, double y)
 {
@@ -429,15 +448,10 @@ static double draw_colour_bar(const sketch *s, double y)
     set_colour(s->pen, INK);
     cairo_set_line_width(s->pen, 0.8);
     cairo_stroke(s->pen);
-    const int n = s->style.logarithmic ? DECADES : 5;
-    const double mantissa = top / pow(10.0, floor(log10(top) + 1e-9));
-    const bool in_quarters = fabs(mantissa - 2) < 0.01 || fabs(mantissa - 4) < 0.01 ||
-                             fabs(mantissa - 8) < 0.01 || fabs(mantissa - 1.2) < 0.01;
-    const int steps = !s->style.logarithmic && in_quarters ? 4 : n;
-    for (int k = 0; k <= steps; k++) {
-        const double value = s->style.logarithmic ? top * pow(10.0, k - DECADES) : top * k / steps;
-        draw_tick(s, x + WIDTH, y + HEIGHT - (double)HEIGHT * k / steps, value);
-    }
+    if (s->style.logarithmic)
+        draw_decades(s, x + WIDTH, y, HEIGHT, top);
+    else
+        draw_steps(s, x + WIDTH, y, HEIGHT, top);
     return y + HEIGHT + 36;
 }
 
@@ -546,10 +560,10 @@ static void draw_arrow(const sketch *s, const double centre[2], const double v[3
     if (length < 14) { /* along the line of sight: a point to the viewer, a cross away from him */
         const double r = 6;
         cairo_new_sub_path(s->pen);
-        cairo_arc(s->pen, centre[0], centre[1], r, 0, TURN);
+        cairo_arc(s->pen, centre[0], centre[1], r, 0, TWO_PI);
         cairo_stroke(s->pen);
         if (v[2] > 0) {
-            cairo_arc(s->pen, centre[0], centre[1], 2, 0, TURN);
+            cairo_arc(s->pen, centre[0], centre[1], 2, 0, TWO_PI);
             cairo_fill(s->pen);
         } else {
             const double d = r * 0.707;
@@ -576,7 +590,7 @@ static void draw_directions(const sketch *s)
     cairo_set_line_width(s->pen, 1);
     cairo_set_source_rgb(s->pen, 0.82, 0.82, 0.84);
     cairo_new_sub_path(s->pen);
-    cairo_arc(s->pen, centre[0], centre[1], COMPASS, 0, TURN);
+    cairo_arc(s->pen, centre[0], centre[1], COMPASS, 0, TWO_PI);
     cairo_stroke(s->pen);
     for (int k = 0; k < 3; k++)
         draw_arrow(s, centre, scene->body_axes[k], INK, 1.6, NAMES[k]);
