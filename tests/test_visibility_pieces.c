@@ -256,6 +256,59 @@ START_TEST(test_pieces_sphere_has_no_creases)
 }
 END_TEST
 
+/* ---------------------------------------------------- what can shadow what */
+
+START_TEST(test_visibility_counts_what_can_be_shadowed_by_what)
+{
+    scene *s = scene_new();
+    primitive_spec box = box_shape(2, 2, 2); /* component 0: faces at +-1 m */
+    shape_add(&box, 0, &s->facets);
+    const double beside[3] = {0, 3, 0};
+    primitive_spec wing = plate_shape(1, 4, beside, z_axis, x_axis); /* from y = 1 m to 5 m */
+    shape_material(&wing, "back_material", 0);
+    shape_add(&wing, 1, &s->facets);
+    scene_plan(s);
+    int counts[N_COMPONENTS * N_COMPONENTS];
+    enum { BOX_BY_BOX, BOX_BY_WING, WING_BY_BOX, WING_BY_WING };
+    ck_assert_int_eq(visibility_count_exposed(&s->model, s->components, counts, NULL), GLINT_OK);
+    ck_assert_int_eq(counts[BOX_BY_BOX], 0);  /* convex */
+    ck_assert_int_eq(counts[BOX_BY_WING], 1); /* the face at y = 1 m alone */
+    ck_assert_int_eq(counts[WING_BY_BOX], 2);
+    ck_assert_int_eq(counts[WING_BY_WING], 0);
+    ck_assert_int_eq(visibility_n_exposed(s->plan), 3);
+    /* Turning about x through the middle of the box, it comes before four faces: x = +-1 m stay
+     * out of reach of a wing that is 0.5 m wide. */
+    s->components[1].moves = true;
+    copy3(x_axis, s->components[1].axis);
+    ck_assert_int_eq(visibility_count_exposed(&s->model, s->components, counts, NULL), GLINT_OK);
+    ck_assert_int_eq(counts[BOX_BY_BOX], 0);
+    ck_assert_int_eq(counts[BOX_BY_WING], 4);
+    ck_assert_int_eq(counts[WING_BY_BOX], 2);
+    ck_assert_int_eq(counts[WING_BY_WING], 0);
+    scene_free(s);
+}
+END_TEST
+
+START_TEST(test_visibility_counts_what_shadows_itself)
+{
+    scene *s = scene_new();
+    add_satellite(s);
+    scene_plan(s);
+    int counts[N_COMPONENTS * N_COMPONENTS];
+    ck_assert_int_eq(visibility_count_exposed(&s->model, s->components, counts, NULL), GLINT_OK);
+    int n_first = 0;
+    for (int k = 0; k < s->model.n_facets; k++)
+        n_first += s->model.polygons.items[k].component == 0;
+    /* Of the box's six faces the upper one alone has the dish before it, which is narrower than the
+     * box; the dish's facets have the box or the rest of the dish before them. */
+    ck_assert_int_eq(counts[0], n_first - 5);
+    ck_assert_int_gt(counts[1], 0);
+    ck_assert_int_gt(counts[2], 0);
+    ck_assert_int_gt(counts[3], 0);
+    scene_free(s);
+}
+END_TEST
+
 int main(void)
 {
     TCase *cases = tcase_create("visibility_pieces");
@@ -265,6 +318,8 @@ int main(void)
     tcase_add_test(cases, test_pieces_edges_of_a_box);
     tcase_add_test(cases, test_pieces_edges_hidden_in_part);
     tcase_add_test(cases, test_pieces_sphere_has_no_creases);
+    tcase_add_test(cases, test_visibility_counts_what_can_be_shadowed_by_what);
+    tcase_add_test(cases, test_visibility_counts_what_shadows_itself);
     Suite *suite = suite_create("visibility_pieces");
     suite_add_tcase(suite, cases);
     return run_suite(suite);

@@ -63,6 +63,10 @@ void sky_place(const glint_scenario *s, const frame_set *frames, const double gc
  */
 glint_status satellite_plan_shadows(const satellite *sat, visibility **out, glint_error *error);
 
+/* counts[on n + by] of n = sat->n_components: visibility_count_exposed. Errors: GLINT_INTERNAL
+ * (memory). */
+glint_status satellite_count_shadowed(const satellite *sat, int *counts, glint_error *error);
+
 /* Satellite as seen from a site at reception time t_s: all in GCRS. */
 typedef struct sighting {
     frame_set frames; /* at reception */
