@@ -338,7 +338,7 @@ holds 'no picture is left' [ ! -e view.png ]
 t 'check' 0 check plate.toml
 has "$out" plate.toml white lambert
 empty "$err"
-holds 'nothing that could be shadowed' grep -q '^shadows     0 of 1 facets' "$out"
+holds 'nothing that could be shadowed' grep -q '^shadows     none computed; 0 of 1 facets' "$out"
 t 'check of what shadows what' 0 check "$source/scenarios/models/box-wing.toml"
 has "$out" '6 of 10 facets can be shadowed' 'shadow of wing-north' '1 of 6 facets of bus'
 t 'check goes on after a wrong file' 1 check broken.toml plate.toml absent.toml

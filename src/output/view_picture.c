@@ -309,7 +309,8 @@ static void write_viewer(const sketch *s, char *out, size_t size)
     const bool is_aside = scene->is_model && scene->from == GLINT_FROM_OBSERVER;
     int n = snprintf(out, size, "%s", FROM[is_aside ? GLINT_FROM_DIRECTION : scene->from]);
     if (scene->has_range)
-        n += snprintf(out + n, size - (size_t)n, " at %.4g km", scene->range_m / 1000);
+        n += snprintf(out + n, size - (size_t)n, " at %.*f km", scene->range_m < 1e5 ? 3 : 0,
+                      scene->range_m / 1000);
     n += snprintf(out + n, size - (size_t)n, ",  phase angle %.1f\302\260",
                   scene->phase_angle_rad / DEG);
     if (!scene->has_shadows)
@@ -411,6 +412,7 @@ static void draw_tick(const sketch *s, double x, double y, double value)
 static void draw_decades(const sketch *s, double x, double y, double height, double top)
 {
     const int highest = (int)floor(log10(top) + 1e-9);
+    if (log10(top) - highest > 0.3) draw_tick(s, x, y, top);
     for (int k = highest; k >= highest - DECADES; k--) {
         const double below = (log10(top) - k) / DECADES;
         if (below <= 1 + 1e-9) draw_tick(s, x, y + height * below, pow(10.0, k));
@@ -536,6 +538,7 @@ enum { COMPASS = 84 }; /* radius: length of a unit vector */
 static void draw_arrow(const sketch *s, const double centre[2], const double v[3], colour c,
                        double width, const char *name)
 {
+    static const double POINT_BELOW = 14; /* an arrow this short is drawn as a point */
     const double across = hypot(v[0], v[1]), length = COMPASS * across;
     const double x = centre[0] + COMPASS * v[0], y = centre[1] - COMPASS * v[1];
     const double dashes[] = {4, 4};
@@ -557,7 +560,7 @@ static void draw_arrow(const sketch *s, const double centre[2], const double v[3
         cairo_fill(s->pen);
     }
     cairo_set_dash(s->pen, NULL, 0, 0);
-    if (length < 14) { /* along the line of sight: a point to the viewer, a cross away from him */
+    if (length < POINT_BELOW) { /* along the line of sight: a point to the viewer, a cross away from him */
         const double r = 6;
         cairo_new_sub_path(s->pen);
         cairo_arc(s->pen, centre[0], centre[1], r, 0, TWO_PI);
@@ -574,10 +577,11 @@ static void draw_arrow(const sketch *s, const double centre[2], const double v[3
             cairo_stroke(s->pen);
         }
     }
-    /* the name beyond the tip, or below the centre where there is no tip to speak of */
-    const double reach = across > 1e-6 ? (length + 15) / (COMPASS * across) : 0;
-    const double lx = across > 1e-6 ? centre[0] + reach * (x - centre[0]) : centre[0] + 16;
-    const double ly = across > 1e-6 ? centre[1] + reach * (y - centre[1]) : centre[1] + 16;
+    /* the name beyond the tip, or beside the point */
+    const bool is_point = length < POINT_BELOW;
+    const double reach = is_point ? 0.0 : (length + 15) / length;
+    const double lx = is_point ? centre[0] + 17 : centre[0] + reach * (x - centre[0]);
+    const double ly = is_point ? centre[1] - 12 : centre[1] + reach * (y - centre[1]);
     write_text(s, name, SMALL_SIZE, ALIGN_MIDDLE, lx, ly + 5, 60);
 }
 
@@ -597,13 +601,13 @@ static void draw_directions(const sketch *s)
     draw_arrow(s, centre, scene->sun, SUN_COLOUR, 2.4, "Sun");
     if (scene->north_up) {
         set_colour(s->pen, PALE_INK);
-        write_text(s, "N", SMALL_SIZE, ALIGN_MIDDLE, centre[0], centre[1] - COMPASS - 22, 40);
-        write_text(s, "E", SMALL_SIZE, ALIGN_MIDDLE, centre[0] - COMPASS - 26, centre[1] + 5, 40);
+        write_text(s, "N", SMALL_SIZE, ALIGN_MIDDLE, centre[0], centre[1] - COMPASS - 26, 40);
+        write_text(s, "E", SMALL_SIZE, ALIGN_MIDDLE, centre[0] - COMPASS - 36, centre[1] + 5, 40);
         cairo_set_line_width(s->pen, 1.4);
-        cairo_move_to(s->pen, centre[0], centre[1] - COMPASS - 6);
-        cairo_line_to(s->pen, centre[0], centre[1] - COMPASS - 18);
-        cairo_move_to(s->pen, centre[0] - COMPASS - 6, centre[1]);
-        cairo_line_to(s->pen, centre[0] - COMPASS - 18, centre[1]);
+        cairo_move_to(s->pen, centre[0], centre[1] - COMPASS);
+        cairo_line_to(s->pen, centre[0], centre[1] - COMPASS - 7);
+        cairo_move_to(s->pen, centre[0] - COMPASS, centre[1]);
+        cairo_line_to(s->pen, centre[0] - COMPASS - 7, centre[1]);
         cairo_stroke(s->pen);
     }
     set_colour(s->pen, PALE_INK);
