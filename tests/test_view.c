@@ -115,7 +115,7 @@ START_TEST(test_view_pieces_give_the_curve_s_magnitude)
     const char *path = write_file("satellite.toml", text);
     int bright = 0;
     for (int row = 0; row < 12; row++) {
-        char at[8];
+        char at[16];
         snprintf(at, sizeof at, "%d", row);
         glint_view *view = look_at(path, &(glint_view_options){.at = at});
         const glint_view_scene *scene = glint_view_describe(view);

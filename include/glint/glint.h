@@ -392,7 +392,7 @@ typedef struct glint_view_piece {
 typedef struct glint_view_edge {
     double from_m[3], to_m[3];
     bool is_outline; /* beyond it the surface ends, or turns out of sight */
-    bool is_smooth;  /* it lies within one flat or curved surface */
+    bool is_smooth;  /* it lies within one flat surface, or one curved one */
     bool parts_materials;
     double turn_rad; /* between the facets on both sides; 0 at an end */
 } glint_view_edge;

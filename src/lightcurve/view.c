@@ -326,8 +326,11 @@ static void add_edge(looker *l, const visibility_edge *from)
 {
     const facet *items = l->view->s->satellite.model.polygons.items;
     glint_view_edge *e = &l->view->edges[l->view->n_edges++];
+    const int surface = items[from->facet].surface;
+    const bool one_surface =
+        from->neighbour >= 0 && surface > 0 && surface == items[from->neighbour].surface;
     *e = (glint_view_edge){.is_outline = from->kind == VISIBILITY_RIM,
-                           .is_smooth = from->kind == VISIBILITY_SMOOTH,
+                           .is_smooth = one_surface || from->kind == VISIBILITY_SMOOTH,
                            .turn_rad = from->turn_rad};
     e->parts_materials =
         from->neighbour >= 0 && items[from->facet].material != items[from->neighbour].material;

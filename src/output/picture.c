@@ -8,6 +8,21 @@
 
 static const char *const SUFFIXES[N_PICTURE_KINDS] = {".svg", ".png", ".pdf"};
 
+#ifdef __SANITIZE_ADDRESS__
+/* Fontconfig, which finds cairo its fonts, keeps what it found until the process ends: that is no
+ * leak, and nothing to talk about. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_options(void);
+const char *__lsan_default_options(void)
+{
+    return "print_suppressions=0";
+}
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libfontconfig";
+}
+#endif
+
 struct picture {
     const char *path;
     picture_kind kind;

@@ -28,6 +28,7 @@ enum { DECADES = 4 };
 
 static const colour INK = {0.10, 0.10, 0.12}, PALE_INK = {0.38, 0.38, 0.42},
                     SUN_COLOUR = {0.90, 0.55, 0.0};
+static const colour LIT_COLOUR = {0.99, 0.86, 0.45}; /* where colours tell light from shadow */
 /* Without sunlight: neutral, so that they are not taken for values of the scale. */
 static const colour SHADOW_COLOUR = {0.50, 0.52, 0.55}, AWAY_COLOUR = {0.33, 0.34, 0.37},
                     BACK_COLOUR = {0.13, 0.13, 0.14};
@@ -142,8 +143,7 @@ static colour colour_of_piece(const sketch *s, const glint_view_piece *p)
     }
     if (shadowed) return colour_dim(SHADOW_COLOUR, shade(p->facing));
     if (!lit) return colour_dim(AWAY_COLOUR, shade(p->facing));
-    if (s->style.colour == GLINT_COLOUR_LIGHT)
-        return colour_dim((colour){0.99, 0.86, 0.45}, shade(p->facing));
+    if (s->style.colour == GLINT_COLOUR_LIGHT) return colour_dim(LIT_COLOUR, shade(p->facing));
     /* in 256 steps, for the same reason */
     return colour_scale(round(255.0 * on_scale(s, p->radiance_factor)) / 255.0);
 }
@@ -238,18 +238,23 @@ static glint_status paint_pieces(const sketch *s, glint_error *error)
     return GLINT_OK;
 }
 
-/* Edges that are drawn: ends, and where the surface turns or changes. */
-static bool is_drawn(const glint_view_edge *e)
+/* Whether an edge is drawn, which is `length` long: ends, outlines, and where the surface turns or
+ * changes. */
+static bool is_drawn(const glint_view_edge *e, double length)
 {
-    static const double LEAST_TURN = 0.5; /* rad; what turns less is the net of a curved mesh */
+    static const double LEAST_TURN = 0.5;    /* rad; what turns less is the net of a mesh */
+    static const double LEAST_LENGTH = 0.15; /* what rounding leaves of an edge makes no dot */
+    static const double LEAST_FOLD = 4;      /* of crinkled foil: smaller ones are only a clutter */
+    if (length < LEAST_LENGTH) return false;
+    const bool is_flat = e->turn_rad > 0 && e->turn_rad < LEAST_TURN;
+    if (e->is_outline && is_flat && !e->is_smooth) return length >= LEAST_FOLD;
     if (e->is_outline || e->parts_materials) return true;
-    return !e->is_smooth && e->turn_rad > LEAST_TURN;
+    return !e->is_smooth && !is_flat;
 }
 
 /* A pale line below each dark one shows it on dark surfaces, too. */
 static void draw_edges(const sketch *s)
 {
-    static const double LEAST_LENGTH = 0.15; /* what rounding leaves of an edge makes no dot */
     size_t n;
     const glint_view_edge *edges = glint_view_edges(s->view, &n);
     cairo_set_line_cap(s->pen, CAIRO_LINE_CAP_ROUND);
@@ -257,7 +262,7 @@ static void draw_edges(const sketch *s)
         for (size_t k = 0; k < n; k++) {
             const double *from = edges[k].from_m, *to = edges[k].to_m;
             const double length = s->scale * hypot(to[0] - from[0], to[1] - from[1]);
-            if (!is_drawn(&edges[k]) || length < LEAST_LENGTH) continue;
+            if (!is_drawn(&edges[k], length)) continue;
             cairo_move_to(s->pen, x_of(s, from), y_of(s, from));
             cairo_line_to(s->pen, x_of(s, to), y_of(s, to));
         }
@@ -496,36 +501,42 @@ static double draw_materials(const sketch *s, double y, double end)
     return y;
 }
 
+/* What stands for light; returns the y below it. */
+static double draw_lit(const sketch *s, double y, bool any_lit)
+{
+    if (s->style.colour == GLINT_COLOUR_BRIGHTNESS && s->scene->brightest > 0)
+        return draw_colour_bar(s, y);
+    const bool by_light = s->style.colour == GLINT_COLOUR_LIGHT;
+    draw_heading(s, y, by_light ? "light" : "nothing lit is seen");
+    y += 28;
+    if (!by_light || !any_lit) return y;
+    draw_swatch(s, y, LIT_COLOUR, "lit");
+    return y + 26;
+}
+
+/* The legend, above `end`. */
 static void draw_legend(const sketch *s, double end)
 {
     bool lights[4];
     double y = HEAD + 30;
     find_lights(s, lights);
-    const bool by_material = s->style.colour == GLINT_COLOUR_MATERIAL;
-    if (by_material) {
+    const bool shadowed = lights[GLINT_PIECE_SHADOWED], away = lights[GLINT_PIECE_TURNED_AWAY];
+    if (s->style.colour == GLINT_COLOUR_MATERIAL) {
         y = draw_materials(s, y, end - 4 * 26) + 8;
         set_colour(s->pen, PALE_INK);
-        if (lights[GLINT_PIECE_SHADOWED] || lights[GLINT_PIECE_TURNED_AWAY])
+        if (shadowed || away)
             write_text(s, "darker: in shadow; darkest: turned away", SMALL_SIZE - 2, ALIGN_LEFT,
                        s->width - PANEL, y, PANEL - MARGIN);
         set_colour(s->pen, INK);
         y += 28;
-    } else if (s->style.colour == GLINT_COLOUR_LIGHT) {
-        draw_heading(s, y, "light");
-        y += 28;
-        if (lights[GLINT_PIECE_LIT]) draw_swatch(s, y, (colour){0.99, 0.86, 0.45}, "lit"), y += 26;
-    } else if (s->scene->brightest > 0) {
-        y = draw_colour_bar(s, y);
     } else {
-        draw_heading(s, y, "nothing lit is seen");
-        y += 32;
-    }
-    if (!by_material && lights[GLINT_PIECE_SHADOWED])
-        draw_swatch(s, y, SHADOW_COLOUR, "in shadow"), y += 26;
-    if (!by_material && lights[GLINT_PIECE_TURNED_AWAY]) {
+        y = draw_lit(s, y, lights[GLINT_PIECE_LIT]);
+        if (shadowed) draw_swatch(s, y, SHADOW_COLOUR, "in shadow");
+        y += shadowed ? 26 : 0;
         const bool umbra = s->scene->sunlit_fraction <= 0;
-        draw_swatch(s, y, AWAY_COLOUR, umbra ? "without sunlight" : "turned from the Sun");
-        y += 26;
+        if (away)
+            draw_swatch(s, y, AWAY_COLOUR, umbra ? "without sunlight" : "turned from the Sun");
+        y += away ? 26 : 0;
     }
     if (lights[GLINT_PIECE_BACK]) draw_swatch(s, y, BACK_COLOUR, "back, black");
 }
@@ -534,55 +545,77 @@ static void draw_legend(const sketch *s, double end)
 
 enum { COMPASS = 84 }; /* radius: length of a unit vector */
 
-/* An arrow along a unit vector, broken where it points away from the viewer. */
+/* A direction along the line of sight: a point to the viewer, a cross away from him. */
+static void draw_point(const sketch *s, const double centre[2], bool to_viewer)
+{
+    static const double RADIUS = 6, DOT = 2;
+    cairo_new_sub_path(s->pen);
+    cairo_arc(s->pen, centre[0], centre[1], RADIUS, 0, TWO_PI);
+    cairo_stroke(s->pen);
+    if (to_viewer) {
+        cairo_arc(s->pen, centre[0], centre[1], DOT, 0, TWO_PI);
+        cairo_fill(s->pen);
+        return;
+    }
+    const double d = RADIUS * sqrt(0.5);
+    cairo_move_to(s->pen, centre[0] - d, centre[1] - d);
+    cairo_line_to(s->pen, centre[0] + d, centre[1] + d);
+    cairo_move_to(s->pen, centre[0] - d, centre[1] + d);
+    cairo_line_to(s->pen, centre[0] + d, centre[1] - d);
+    cairo_stroke(s->pen);
+}
+
+/* The line and the tip of an arrow `length` > 0 long along the unit vector (ux, uy). */
+static void draw_shaft(const sketch *s, const double centre[2], double ux, double uy, double length,
+                       bool is_broken)
+{
+    const double dashes[] = {4, 4}, head = fmin(10, 0.5 * length), half = 0.4 * head;
+    const double x = centre[0] + length * ux, y = centre[1] + length * uy;
+    const double neck_x = x - head * ux, neck_y = y - head * uy;
+    if (is_broken) cairo_set_dash(s->pen, dashes, 2, 0);
+    cairo_move_to(s->pen, centre[0], centre[1]);
+    cairo_line_to(s->pen, neck_x, neck_y);
+    cairo_stroke(s->pen);
+    cairo_set_dash(s->pen, NULL, 0, 0);
+    cairo_move_to(s->pen, x, y);
+    cairo_line_to(s->pen, neck_x - half * uy, neck_y + half * ux);
+    cairo_line_to(s->pen, neck_x + half * uy, neck_y - half * ux);
+    cairo_close_path(s->pen);
+    cairo_fill(s->pen);
+}
+
+/* An arrow along a unit vector, broken where it points away from the viewer; its name beyond the
+ * tip. */
 static void draw_arrow(const sketch *s, const double centre[2], const double v[3], colour c,
                        double width, const char *name)
 {
-    static const double POINT_BELOW = 14; /* an arrow this short is drawn as a point */
+    static const double SHORTEST = 14, BEYOND = 15;
     const double across = hypot(v[0], v[1]), length = COMPASS * across;
-    const double x = centre[0] + COMPASS * v[0], y = centre[1] - COMPASS * v[1];
-    const double dashes[] = {4, 4};
     set_colour(s->pen, c);
     cairo_set_line_width(s->pen, width);
     cairo_set_line_cap(s->pen, CAIRO_LINE_CAP_BUTT);
-    if (v[2] < -1e-9) cairo_set_dash(s->pen, dashes, 2, 0);
-    const double head = fmin(10, 0.5 * length);
-    if (across > 1e-6) {
-        const double ux = v[0] / across, uy = -v[1] / across;
-        cairo_move_to(s->pen, centre[0], centre[1]);
-        cairo_line_to(s->pen, x - head * ux, y - head * uy);
-        cairo_stroke(s->pen);
-        cairo_set_dash(s->pen, NULL, 0, 0);
-        cairo_move_to(s->pen, x, y);
-        cairo_line_to(s->pen, x - head * ux - 0.4 * head * uy, y - head * uy + 0.4 * head * ux);
-        cairo_line_to(s->pen, x - head * ux + 0.4 * head * uy, y - head * uy - 0.4 * head * ux);
-        cairo_close_path(s->pen);
-        cairo_fill(s->pen);
+    if (length < SHORTEST) {
+        draw_point(s, centre, v[2] > 0);
+        write_text(s, name, SMALL_SIZE, ALIGN_MIDDLE, centre[0] + 17, centre[1] - 7, 60);
+        return;
     }
-    cairo_set_dash(s->pen, NULL, 0, 0);
-    if (length < POINT_BELOW) { /* along the line of sight: a point to the viewer, a cross away from him */
-        const double r = 6;
-        cairo_new_sub_path(s->pen);
-        cairo_arc(s->pen, centre[0], centre[1], r, 0, TWO_PI);
-        cairo_stroke(s->pen);
-        if (v[2] > 0) {
-            cairo_arc(s->pen, centre[0], centre[1], 2, 0, TWO_PI);
-            cairo_fill(s->pen);
-        } else {
-            const double d = r * 0.707;
-            cairo_move_to(s->pen, centre[0] - d, centre[1] - d);
-            cairo_line_to(s->pen, centre[0] + d, centre[1] + d);
-            cairo_move_to(s->pen, centre[0] - d, centre[1] + d);
-            cairo_line_to(s->pen, centre[0] + d, centre[1] - d);
-            cairo_stroke(s->pen);
-        }
-    }
-    /* the name beyond the tip, or beside the point */
-    const bool is_point = length < POINT_BELOW;
-    const double reach = is_point ? 0.0 : (length + 15) / length;
-    const double lx = is_point ? centre[0] + 17 : centre[0] + reach * (x - centre[0]);
-    const double ly = is_point ? centre[1] - 12 : centre[1] + reach * (y - centre[1]);
-    write_text(s, name, SMALL_SIZE, ALIGN_MIDDLE, lx, ly + 5, 60);
+    const double ux = v[0] / across, uy = -v[1] / across, reach = length + BEYOND;
+    draw_shaft(s, centre, ux, uy, length, v[2] < 0);
+    write_text(s, name, SMALL_SIZE, ALIGN_MIDDLE, centre[0] + reach * ux,
+               centre[1] + reach * uy + 5, 60);
+}
+
+static void draw_north(const sketch *s, const double centre[2])
+{
+    set_colour(s->pen, PALE_INK);
+    write_text(s, "N", SMALL_SIZE, ALIGN_MIDDLE, centre[0], centre[1] - COMPASS - 26, 40);
+    write_text(s, "E", SMALL_SIZE, ALIGN_MIDDLE, centre[0] - COMPASS - 36, centre[1] + 5, 40);
+    cairo_set_line_width(s->pen, 1.4);
+    cairo_move_to(s->pen, centre[0], centre[1] - COMPASS);
+    cairo_line_to(s->pen, centre[0], centre[1] - COMPASS - 7);
+    cairo_move_to(s->pen, centre[0] - COMPASS, centre[1]);
+    cairo_line_to(s->pen, centre[0] - COMPASS - 7, centre[1]);
+    cairo_stroke(s->pen);
 }
 
 /* Body axes, the Sun, and north and east on the sky, in a circle of their own. */
@@ -599,17 +632,7 @@ static void draw_directions(const sketch *s)
     for (int k = 0; k < 3; k++)
         draw_arrow(s, centre, scene->body_axes[k], INK, 1.6, NAMES[k]);
     draw_arrow(s, centre, scene->sun, SUN_COLOUR, 2.4, "Sun");
-    if (scene->north_up) {
-        set_colour(s->pen, PALE_INK);
-        write_text(s, "N", SMALL_SIZE, ALIGN_MIDDLE, centre[0], centre[1] - COMPASS - 26, 40);
-        write_text(s, "E", SMALL_SIZE, ALIGN_MIDDLE, centre[0] - COMPASS - 36, centre[1] + 5, 40);
-        cairo_set_line_width(s->pen, 1.4);
-        cairo_move_to(s->pen, centre[0], centre[1] - COMPASS);
-        cairo_line_to(s->pen, centre[0], centre[1] - COMPASS - 7);
-        cairo_move_to(s->pen, centre[0] - COMPASS, centre[1]);
-        cairo_line_to(s->pen, centre[0] - COMPASS - 7, centre[1]);
-        cairo_stroke(s->pen);
-    }
+    if (scene->north_up) draw_north(s, centre);
     set_colour(s->pen, PALE_INK);
     const bool behind = scene->sun[2] < 0;
     write_text(s, behind ? "the Sun is behind the satellite" : "the Sun is on the viewer's side",
