@@ -300,7 +300,7 @@ START_TEST(test_view_draws_the_same_bytes_again)
 {
     glint_view *view = look_at(SCENARIO_DIR "/iss-vienna.toml", NULL);
     static const char *const names[] = {"a.png", "b.png", "a.pdf", "b.pdf"};
-    for (int k = 0; k < 4; k += 2) {
+    for (int k = 0; k < 4; k += 2) { /* those of SVG are numbered through while a program runs */
         size_t n, m;
         char *a = read_bytes(draw_as(view, names[k], NULL), &n);
         char *b = read_bytes(draw_as(view, names[k + 1], NULL), &m);

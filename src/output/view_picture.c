@@ -19,7 +19,7 @@ enum {
     FULL_HEIGHT = 900
 };
 /* A picture that shrinks the layout by more has no room for words: it shows the satellite alone. */
-static const double LEAST_SHRINK = 0.4;
+static const double LEAST_SHRINK = 0.5;
 
 static const double TITLE_SIZE = 26, TEXT_SIZE = 18, SMALL_SIZE = 15;
 
@@ -96,7 +96,12 @@ static void write_text(const sketch *s, const char *string, double size, align s
     }
     const double part = side == ALIGN_LEFT ? 0.0 : side == ALIGN_MIDDLE ? 0.5 : 1.0;
     cairo_move_to(s->pen, x - part * text_width(s, line), y);
-    cairo_show_text(s->pen, line);
+    if (cairo_surface_get_type(cairo_get_target(s->pen)) != CAIRO_SURFACE_TYPE_SVG) {
+        cairo_show_text(s->pen, line);
+        return;
+    }
+    cairo_text_path(s->pen, line); /* plain paths: not all that show SVG know its symbols */
+    cairo_fill(s->pen);
 }
 
 static void set_font(const sketch *s, bool bold)
@@ -436,22 +441,20 @@ static void draw_steps(const sketch *s, double x, double y, double height, doubl
 /* Scale of the radiance factor; returns the y below it. */
 static double draw_colour_bar(const sketch *s, double y)
 {
-    enum { HEIGHT = 230, WIDTH = 22 };
+    enum { HEIGHT = 230, WIDTH = 22, N_STEPS = 115 };
     const double x = s->width - PANEL, top = top_of_scale(s->scene->brightest);
     draw_heading(s, y, "radiance factor");
     set_colour(s->pen, PALE_INK);
     write_text(s, "1: a white plate that faces the Sun", SMALL_SIZE - 2, ALIGN_LEFT, x, y + 18,
                PANEL - MARGIN);
     y += 34;
-    cairo_pattern_t *scale = cairo_pattern_create_linear(0, y + HEIGHT, 0, y);
-    for (int k = 0; k <= 64; k++) {
-        const colour c = colour_scale(k / 64.0);
-        cairo_pattern_add_color_stop_rgb(scale, k / 64.0, c.red, c.green, c.blue);
+    for (int k = N_STEPS; k > 0; k--) { /* downwards, each as far as the end: without seams */
+        cairo_rectangle(s->pen, x, y + HEIGHT - (double)HEIGHT * k / N_STEPS, WIDTH,
+                        (double)HEIGHT * k / N_STEPS);
+        set_colour(s->pen, colour_scale((k - 0.5) / N_STEPS));
+        cairo_fill(s->pen);
     }
     cairo_rectangle(s->pen, x, y, WIDTH, HEIGHT);
-    cairo_set_source(s->pen, scale);
-    cairo_fill_preserve(s->pen);
-    cairo_pattern_destroy(scale);
     set_colour(s->pen, INK);
     cairo_set_line_width(s->pen, 0.8);
     cairo_stroke(s->pen);
