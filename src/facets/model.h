@@ -97,6 +97,12 @@ void model_free(model *m);
 void model_sum(const model *m, const brdf_light *lights, const source_disc *disc,
                const double *visible, double *x);
 
+/* The same facet by facet, in one band and one lane: x[k] is what facet k sends of itself when all
+ * of it counts, m^2/sr. Errors: GLINT_INTERNAL (memory). */
+glint_status model_sum_facets(const model *m, const brdf_light *lights, const source_disc *disc,
+                              int band, int lane,
+                              double *x, glint_error *error);
+
 /* Geometry in numbers, for reports. */
 typedef struct model_component_facts {
     int n_facets;
