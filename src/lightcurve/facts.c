@@ -292,10 +292,11 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
               "observer");
     add_flicker(s, out);
     static const char *const DISCS[] = {
-        [SOLAR_UNIFORM] = "uniform: light is averaged over the Sun's disc, whose own shadows have "
-                          "sharp edges (those of its centre)",
-        [SOLAR_LIMB_DARKENED] = "limb-darkened (linear, u = 0.6): light is averaged over the Sun's "
-                                "disc, whose own shadows have sharp edges (those of its centre)",
+        [SOLAR_UNIFORM] =
+            "uniform: the mean over the Sun's disc; shadows between parts are those of "
+            "its centre",
+        [SOLAR_LIMB_DARKENED] = "limb-darkened (linear, u = 0.6): the mean over the Sun's disc; "
+                                "shadows between parts are those of its centre",
         [SOLAR_POINT] = "point: facets see the Sun's light from the centre of its disc"};
     add(out, "solar_disc", "%s", DISCS[s->solar_disc]);
     add(out, "earthshine", "none");
