@@ -156,7 +156,7 @@ START_TEST(test_solar_disc_blurs_every_kind_of_lobe_as_brute_force_does)
     static const double WIDTH[] = {0.014, 0.035, 0.1, 0.007, 0.002, 0.03, 0.007, 0.07, 0.03,
                                    0.014, 0.02,  0.1, 0.3,   0.3,   0.3,  0.3,   0.3};
     const paint *p = &PAINTS[_i];
-    check_paint(p, WIDTH[_i], _i % 2, 220, 1e-3);
+    check_paint(p, WIDTH[_i], _i % 2, 300, 1e-3);
 }
 END_TEST
 
