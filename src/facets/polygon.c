@@ -330,6 +330,9 @@ enum { MANY_COVERS = 16 };
  * of the whole. Below 1.42 (the root of 2 for each half) the work stays at worst quadratic. */
 static const double WORTH_HALVING = 1.4;
 
+/* A part that is thinner than so many times `near` is not halved. */
+static const double THIN = 16.0;
+
 /* What is to be done with a part: the tasks lie on each other as the parts in work.parts do. */
 typedef struct polygon_task {
     int first, n; /* in work.lists: covers that the part may meet */
@@ -459,7 +462,8 @@ static bool divide_by_cover(const subtraction *s, int cover, polygon_task rest)
     return true;
 }
 
-/* A line that halves a box, and how many covers reach into the two halves together. */
+/* A line that halves a box, and how many covers reach into the two halves together; INT_MAX where
+ * the halves would be too thin for the line to tell them apart. */
 typedef struct halving {
     cut_line line;
     int n_covers;
@@ -474,7 +478,9 @@ static halving halve(const subtraction *s, const box2 *box, bool by_x, const int
         high.lo_x = low.hi_x = x;
     else
         high.lo_y = low.hi_y = y;
-    for (int k = 0; k < n; k++) {
+    if ((by_x ? box->hi_x - box->lo_x : box->hi_y - box->lo_y) < THIN * s->near)
+        h.n_covers = INT_MAX;
+    for (int k = 0; k < n && h.n_covers < INT_MAX; k++) {
         const box2 *cover = &s->covers->items[list[k]].box;
         h.n_covers += boxes_overlap(&high, cover) + boxes_overlap(&low, cover);
     }

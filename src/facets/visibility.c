@@ -16,10 +16,20 @@ struct visibility_scratch {
     polygon_list covers;  /* there too */
     polygon_work work;
     point2 *points;          /* owned; of a body's part before the facet */
+    double (*ring)[3];       /* owned; what matters of an outline */
     int *nodes, *candidates; /* owned; for the walk through the trees; what it found */
     unsigned *passed_over;   /* owned; of each occluder: number of the last search that did so */
     unsigned n_searches;
+    int n_whole; /* polygons among the covers of a view that are wholly before the facet */
+    bool ragged; /* some edge of these, with nothing beyond, may lie across the facet */
 };
+
+/* Rings of more corners are trimmed before they are looked at more closely. */
+enum { WORTH_TRIMMING = 12 };
+
+/* Cosine below which a facet beyond an edge may be lost in rounding (visibility_plan.c: SPLINTER).
+ */
+#define FORESHORTENED 1e-3
 
 /* A facet in one view. */
 typedef struct target {
@@ -179,18 +189,92 @@ static outcome cover_by_hull(const visibility *plan, const target *t, visibility
     return take_cover(t, s, polygon_hull(s->points, n, room));
 }
 
+/* Whether an edge may lie across the facet: it has points of the facet on its outer side, and its
+ * ends are not both outside one side of the shaft. */
+static bool lies_across(const visibility *plan, const target *t, const double from[3],
+                        const double to[3])
+{
+    const exposed_facet *f = t->facet;
+    const double dx = to[0] - from[0], dy = to[1] - from[1];
+    const double slack = plan->near_m * (fabs(dx) + fabs(dy));
+    bool beyond = false;
+    for (int k = f->first; k < f->first + f->n && !beyond; k++) {
+        const double *p = t->view->vertices[plan->rings[k]];
+        beyond = dx * (p[1] - from[1]) - dy * (p[0] - from[0]) < -slack;
+    }
+    if (!beyond) return false;
+    const double ends[2][3] = {{from[0], from[1], 0}, {to[0], to[1], 0}};
+    return !view_relate(&t->shaft, ends, 2).aside;
+}
+
+/* Notes whether a polygon that covers part of the facet ends there. Where it does not, the facet
+ * beyond its edge goes on covering: it is turned the same way, so that it lies on the other side of
+ * the edge, and the edge is not one in the plane of the facet that is to be covered. */
+static void note_edges(const visibility *plan, const target *t, visibility_scratch *s,
+                       const occluder *o, const double (*ring)[3])
+{
+    const double *cosine = t->view->cosine;
+    const bool backwards = cosine[o->facet] < 0.0;
+    s->n_whole++;
+    for (int k = 0; k < o->n && !s->ragged; k++) {
+        const double *from = ring[k], *to = ring[k + 1 < o->n ? k + 1 : 0];
+        const int corner = !backwards ? k : k + 1 < o->n ? o->n - 2 - k : o->n - 1;
+        const int beyond = plan->beyond[o->first + corner];
+        const bool goes_on = beyond >= 0 &&
+                             (backwards ? -cosine[beyond] : cosine[beyond]) > FORESHORTENED &&
+                             fmax(height_of(t, from), height_of(t, to)) > t->facet->contact_m;
+        s->ragged = !goes_on && lies_across(plan, t, from, to);
+    }
+}
+
+/* Which sides of the facet's box a point is outside of, a bit for each. */
+static inline unsigned sides_outside(const shaft *s, const double p[3])
+{
+    return (p[0] < s->lo_x) | (p[0] > s->hi_x) << 1 | (p[1] < s->lo_y) << 2 | (p[1] > s->hi_y) << 3;
+}
+
+/* Leaves out of a ring what makes no difference to the facet: of points that follow each other
+ * outside the same side of its box, only the first and the last matter. Returns how many are left,
+ * in `out`. */
+static int trim(const shaft *s, const double (*ring)[3], int n, double (*out)[3])
+{
+    unsigned common = 0,
+             own = sides_outside(s, ring[0]); /* `common` to all since the last one kept */
+    int count = 0;
+    for (int k = 0; k < n; k++) {
+        const unsigned next = sides_outside(s, ring[k + 1 < n ? k + 1 : 0]);
+        const bool matters = (common & own & next) == 0;
+        if (matters) copy3(ring[k], out[count++]);
+        common = matters ? own : common & own;
+        own = next;
+    }
+    return count;
+}
+
 /* Takes in what an occluder covers of the facet. A body may rise before the facet's plane where its
  * outline does not. */
 static outcome cover_by(const visibility *plan, const target *t, visibility_scratch *s, int k)
 {
     const view_ring outline = view_outline(plan, t->view, k);
-    if (outline.n == 0) return cover_by_hull(plan, t, s, &plan->occluders[k]);
     const double(*ring)[3] = (const double(*)[3])t->view->points + outline.first;
-    const shaft_relation lies = view_relate(&t->shaft, ring, outline.n);
+    int n = outline.n;
+    if (n == 0) return cover_by_hull(plan, t, s, &plan->occluders[k]);
+    if (n > WORTH_TRIMMING) {
+        n = trim(&t->shaft, ring, n, s->ring);
+        ring = (const double(*)[3])s->ring;
+    }
+    const shaft_relation lies = view_relate(&t->shaft, ring, n);
+    const occluder *o = &plan->occluders[k];
     if (lies.aside) return PARTLY_COVERED;
-    if (!lies.below && !lies.crosses_plane) return cover_by_ring(t, s, ring, outline.n);
-    if (plan->occluders[k].facet < 0) return cover_by_hull(plan, t, s, &plan->occluders[k]);
-    return lies.below ? PARTLY_COVERED : cover_by_part(t, s, ring, outline.n);
+    const bool whole = !lies.below && !lies.crosses_plane;
+    if (o->facet < 0) return whole ? cover_by_ring(t, s, ring, n) : cover_by_hull(plan, t, s, o);
+    if (lies.below) return PARTLY_COVERED;
+    const int n_covers = s->covers.n;
+    const outcome found = whole ? cover_by_ring(t, s, ring, n) : cover_by_part(t, s, ring, n);
+    if (s->covers.n > n_covers && whole)
+        note_edges(plan, t, s, o, (const double(*)[3])t->view->points + outline.first);
+    s->ragged |= s->covers.n > n_covers && !whole;
+    return found;
 }
 
 /* Marks the facet's neighbours around those of its corners from which all are turned to the one who
@@ -213,18 +297,21 @@ static void pass_over_fans(const visibility *plan, const target *t, visibility_s
     }
 }
 
-/* Takes in everything that lies before the facet in one view. */
+/* Takes in everything that lies before the facet in one view. Where polygons cover part of it and
+ * none of them ends there, together they cover all of it. */
 static outcome find_covers(const visibility *plan, const target *t, visibility_scratch *s)
 {
     const int n = view_candidates(plan, t->view, &t->shaft, s->nodes, s->candidates);
     if (n == 0) return PARTLY_COVERED;
     pass_over_fans(plan, t, s);
+    s->n_whole = 0;
+    s->ragged = false;
     for (int k = 0; k < n; k++) {
         if (s->passed_over[s->candidates[k]] == s->n_searches) continue;
         const outcome found = cover_by(plan, t, s, s->candidates[k]);
         if (found != PARTLY_COVERED) return found;
     }
-    return PARTLY_COVERED;
+    return s->n_whole > 0 && !s->ragged ? ALL_COVERED : PARTLY_COVERED;
 }
 
 /* --- the fraction --- */
@@ -314,6 +401,7 @@ glint_status visibility_scratch_make(const visibility *plan, visibility_scratch 
     if (!s) return error_no_memory(error);
     const size_t n = (size_t)plan->most_corners, n_hull = n + (size_t)plan->most_edges;
     s->poses = malloc((size_t)plan->n_components * sizeof *s->poses);
+    s->ring = malloc(n * sizeof *s->ring);
     s->points = malloc(n_hull * sizeof *s->points);
     /* the walk writes a whole node's children and then keeps some */
     s->nodes = malloc(((size_t)plan->n_nodes + NODE_CHILDREN) * sizeof *s->nodes);
@@ -321,7 +409,7 @@ glint_status visibility_scratch_make(const visibility *plan, visibility_scratch 
     s->passed_over = calloc((size_t)plan->n_occluders, sizeof *s->passed_over);
     const bool views = view_allocate(&s->views[0], plan) && view_allocate(&s->views[1], plan);
     const bool outline = polygon_list_room(&s->outline, plan->most_corners);
-    if (!views || !outline || !s->poses || !s->points || !s->nodes || !s->candidates ||
+    if (!views || !outline || !s->poses || !s->ring || !s->points || !s->nodes || !s->candidates ||
         !s->passed_over) {
         visibility_scratch_free(s);
         return error_no_memory(error);
@@ -339,6 +427,7 @@ void visibility_scratch_free(visibility_scratch *s)
     polygon_list_free(&s->outline);
     polygon_list_free(&s->covers);
     polygon_work_free(&s->work);
+    free(s->ring);
     free(s->points);
     free(s->nodes);
     free(s->candidates);

@@ -12,6 +12,9 @@
 /* Rounding error of coordinates after a rotation and a shift, over the model's size: 1e-16 for each
  * of a dozen operations, and some room. */
 #define NEAR 1e-14
+/* Facets narrower than this fraction of the model's size are splinters. Foreshortened a
+ * thousandfold, the narrowest that is none is still a hundred times as wide as NEAR. */
+#define SPLINTER 1e-9
 
 /* A facet's plane in the body frame. */
 typedef struct plane {
@@ -141,6 +144,55 @@ static void add_body(planner *p, const solid *s, bool *seen, int *n_corners)
     plan->n_occluders++;
 }
 
+/* The least width of a facet, m: the least, over its edges, of how far its corners rise from them.
+ */
+static double width_of(const planner *p, int facet_index)
+{
+    const facet *f = &p->m->polygons.items[facet_index];
+    const int *ring = p->solids.corners + f->first_vertex;
+    double least = INFINITY;
+    for (int k = 0; k < f->n_vertices; k++) {
+        const double *from = p->solids.vertices[ring[k]];
+        double along[3], inwards[3], d[3], most = 0.0;
+        sub3(p->solids.vertices[ring[(k + 1) % f->n_vertices]], from, along);
+        cross3(f->normal, along, inwards);
+        if (!(unit3(inwards, inwards) > 0.0)) continue;
+        for (int j = 0; j < f->n_vertices; j++) {
+            sub3(p->solids.vertices[ring[j]], from, d);
+            most = fmax(most, dot3(d, inwards));
+        }
+        least = fmin(least, most);
+    }
+    return least;
+}
+
+/* Notes down that `other` lies beyond the edge of a polygon that begins at a vertex. */
+static void set_beyond(const planner *p, int facet_index, int from, int other)
+{
+    const visibility *plan = p->plan;
+    const occluder *o = &plan->occluders[p->own[facet_index]];
+    for (int c = o->first; c < o->first + o->n; c++)
+        if (o->facet == facet_index && plan->corners[c] == from) plan->beyond[c] = other;
+}
+
+/* Splinters do not count: a view may lose them in rounding. */
+static glint_status find_beyond(const planner *p, glint_error *error)
+{
+    bool *wide = malloc((size_t)p->plan->n_facets * sizeof *wide);
+    if (!wide) return error_no_memory(error);
+    for (int k = 0; k < p->plan->n_facets; k++)
+        wide[k] = width_of(p, k) > SPLINTER * p->plan->size_m;
+    for (int c = 0; c < p->plan->n_corners; c++)
+        p->plan->beyond[c] = -1;
+    for (int e = 0; e < p->solids.n_edges; e++) {
+        const solid_edge *edge = &p->solids.edges[e];
+        if (wide[edge->right]) set_beyond(p, edge->left, edge->from, edge->right);
+        if (wide[edge->left]) set_beyond(p, edge->right, edge->to, edge->left);
+    }
+    free(wide);
+    return GLINT_OK;
+}
+
 static glint_status list_occluders(planner *p, glint_error *error)
 {
     visibility *plan = p->plan;
@@ -163,7 +215,7 @@ static glint_status list_occluders(planner *p, glint_error *error)
     for (int k = 0; k < plan->n_occluders; k++)
         if (plan->occluders[k].n > plan->most_corners) plan->most_corners = plan->occluders[k].n;
     free(seen);
-    return GLINT_OK;
+    return find_beyond(p, error);
 }
 
 /* --- groups --- */
@@ -626,13 +678,14 @@ static bool allocate_plan(visibility *plan)
     plan->rings = malloc(n_corners * sizeof *plan->rings);
     plan->occluders = malloc(n_facets * sizeof *plan->occluders);
     plan->corners = malloc(n_corners * sizeof *plan->corners);
+    plan->beyond = malloc(n_corners * sizeof *plan->beyond);
     plan->edges = malloc(n_corners * sizeof *plan->edges);
     plan->first_blade = calloc((size_t)plan->n_vertices + 1, sizeof *plan->first_blade);
     plan->nodes = malloc(2 * n_facets * sizeof *plan->nodes);
     plan->roots = malloc((n_components + 1) * sizeof *plan->roots);
     return plan->vertices && plan->first_vertex && plan->normals && plan->first_facet &&
-           plan->is_exposed && plan->rings && plan->occluders && plan->corners && plan->edges &&
-           plan->first_blade && plan->nodes && plan->roots;
+           plan->is_exposed && plan->rings && plan->occluders && plan->corners && plan->beyond &&
+           plan->edges && plan->first_blade && plan->nodes && plan->roots;
 }
 
 static bool allocate(planner *p)
@@ -704,6 +757,7 @@ void visibility_free(visibility *plan)
     free(plan->rings);
     free(plan->occluders);
     free(plan->corners);
+    free(plan->beyond);
     free(plan->edges);
     free(plan->first_blade);
     free(plan->blades);

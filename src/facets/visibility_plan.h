@@ -53,6 +53,8 @@ struct visibility {
     int *rings;             /* owned; n_corners vertices: corners of the facets */
     occluder *occluders;    /* owned */
     int *corners;           /* owned; n_corners vertices: corners of the occluders */
+    int *beyond;            /* owned; n_corners: of a polygon, the facet beyond the edge from this
+                               corner to the next; -1 where there is none, or a splinter */
     solid_edge *edges;      /* owned; of the bodies */
     int *first_blade;       /* owned; n_vertices + 1 */
     fan_blade *blades;      /* owned; those of a vertex side by side; none where there is no fan */
