@@ -20,7 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { ROUNDS = 5 };
+enum { ROUNDS = 2 };
 static const double AT_LEAST_S = 0.1; /* of each measurement */
 static const double PHASE_DEG = 60.0;
 
@@ -310,7 +310,7 @@ static void run_case(const model_case *c, int n_facets)
     const model_component component = {"all"};
     visibility_component whole = {.parent = -1};
     facet_list facets = {0};
-    scene s = {.steps = n_facets > 5000 ? 32 : 256};
+    scene s = {.steps = n_facets > 5000 ? 512 : n_facets > 500 ? 2048 : 4096};
     uint64_t state = 7;
     lobe.model->prepare(&reflectance, lobe.coef, NULL);
     mat_identity(whole.pose.body_component);
@@ -324,7 +324,11 @@ static void run_case(const model_case *c, int n_facets)
     s.visible = allocate((size_t)s.model.n_facets * BRDF_TILE, sizeof *s.visible);
     make_directions(&s);
     job fill = {.run = run, .data = &s};
+    const double first_from_s = cpu_s();
+    run(&s);
+    const double first_s = cpu_s() - first_from_s;
     measure(&fill, 1, ROUNDS, AT_LEAST_S);
+    fprintf(stderr, "first %.2f ", (double)s.model.n_facets * s.steps / first_s * 1e-6);
     double left;
     const double samples = (double)s.model.n_facets * s.steps, active = count_active(&s, &left);
     printf("%-7s %7d %9d %8.2f %12.2f %12.0f %9.4f %14.9f\n", c->name, s.model.n_facets,

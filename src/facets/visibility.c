@@ -3,15 +3,19 @@
  * other one is carried over through the facet's plane. */
 #include "base/vec.h"
 #include "facets/polygon.h"
-#include "facets/visibility_view.h"
+#include "facets/visibility_sectors.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 struct visibility_scratch {
+    const visibility *plan; /* borrowed */
     visibility_pose *poses; /* owned; that the views were computed for */
     bool has_poses;
-    view views[2];        /* of the source, of the observer */
+    view views[2]; /* of the source, of the observer */
+    sectors sectors;
+    const sector_lists *
+        *lists[2];        /* owned; for each view and root; NULL: the tree is to be walked */
     polygon_list outline; /* of the facet, in the plane of its better view */
     polygon_list covers;  /* there too */
     polygon_work work;
@@ -35,6 +39,7 @@ enum { WORTH_TRIMMING = 12 };
 typedef struct target {
     const exposed_facet *facet;
     view *view;
+    const sector_lists *lists; /* of the facet's group; NULL: none */
     double near_m;
     shaft shaft;
     const double *from; /* its first corner */
@@ -43,42 +48,18 @@ typedef struct target {
 
 /* --- the target --- */
 
-/* A side lets through what is more than a rounding error inside. */
-static void make_shaft(const visibility *plan, const view *v, const exposed_facet *f, shaft *s)
+static void set_target(const visibility *plan, visibility_scratch *s, int which,
+                       const exposed_facet *f, target *t)
 {
-    const int *ring = plan->rings + f->first;
-    double a[SHAFT_SIDES] = {0}, b[SHAFT_SIDES] = {0}, c[SHAFT_SIDES] = {1, 1, 1, 1, 1, 1, 1, 1};
-    mat_vec(v->axes[f->component], f->normal, s->normal);
-    s->offset_m = f->offset_m + dot3(s->normal, v->shift_m[f->component]);
-    s->contact_m = f->contact_m;
-    s->lo_x = s->lo_y = INFINITY, s->hi_x = s->hi_y = -INFINITY;
-    for (int k = 0; k < f->n; k++) {
-        const double *p = v->vertices[ring[k]], *q = v->vertices[ring[k + 1 < f->n ? k + 1 : 0]];
-        const double x = p[0], y = p[1], dx = q[0] - x, dy = q[1] - y;
-        s->lo_x = x < s->lo_x ? x : s->lo_x, s->hi_x = x > s->hi_x ? x : s->hi_x;
-        s->lo_y = y < s->lo_y ? y : s->lo_y, s->hi_y = y > s->hi_y ? y : s->hi_y;
-        if (k >= SHAFT_SIDES) continue;
-        a[k] = -dy, b[k] = dx;
-        c[k] = dy * x - dx * y - plan->near_m * (fabs(dx) + fabs(dy));
-    }
-    s->n_fours = f->n > 4 ? 2 : 1;
-    for (int k = 0; k < s->n_fours; k++) {
-        const int j = 4 * k;
-        s->a[k] = (double4){a[j], a[j + 1], a[j + 2], a[j + 3]};
-        s->b[k] = (double4){b[j], b[j + 1], b[j + 2], b[j + 3]};
-        s->c[k] = (double4){c[j], c[j + 1], c[j + 2], c[j + 3]};
-    }
-}
-
-static void set_target(const visibility *plan, view *v, const exposed_facet *f, target *t)
-{
+    view *v = &s->views[which];
     t->facet = f;
     t->view = v;
+    t->lists = s->lists[which][f->root];
     t->near_m = plan->near_m;
     t->from = v->vertices[plan->rings[f->first]];
     t->to_plane[0] = t->to_plane[3] = 1.0;
     t->to_plane[1] = t->to_plane[2] = 0.0;
-    make_shaft(plan, v, f, &t->shaft);
+    shaft_make(plan, v, f, 0.0, &t->shaft);
 }
 
 /* What is at x, y in one view of a point of the facet's plane is at to_plane (x, y) in the other: z
@@ -257,14 +238,14 @@ static outcome cover_by(const visibility *plan, const target *t, visibility_scra
 {
     const view_ring outline = view_outline(plan, t->view, k);
     const double(*ring)[3] = (const double(*)[3])t->view->points + outline.first;
+    const occluder *o = &plan->occluders[k];
     int n = outline.n;
-    if (n == 0) return cover_by_hull(plan, t, s, &plan->occluders[k]);
+    if (n == 0) return o->facet < 0 ? cover_by_hull(plan, t, s, o) : PARTLY_COVERED;
     if (n > WORTH_TRIMMING) {
         n = trim(&t->shaft, ring, n, s->ring);
         ring = (const double(*)[3])s->ring;
     }
     const shaft_relation lies = view_relate(&t->shaft, ring, n);
-    const occluder *o = &plan->occluders[k];
     if (lies.aside) return PARTLY_COVERED;
     const bool whole = !lies.below && !lies.crosses_plane;
     if (o->facet < 0) return whole ? cover_by_ring(t, s, ring, n) : cover_by_hull(plan, t, s, o);
@@ -297,17 +278,52 @@ static void pass_over_fans(const visibility *plan, const target *t, visibility_s
     }
 }
 
+/* Copies the list of a facet's own group; *in_fans is set where it has some of a fan. */
+static int copy_list(const visibility *plan, const target *t, int *out, bool *in_fans)
+{
+    const long own = t->facet - plan->exposed - plan->roots[t->facet->root].first_exposed;
+    const int *first = t->lists->first + own;
+    const int n = first[1] - first[0], *items = t->lists->items + first[0];
+    if (n == 1 && items[0] == SECTOR_WALK) return -1;
+    for (int k = 0; k < n; k++) {
+        const bool fan = items[k] < 0;
+        out[k] = fan ? items[k] + SECTOR_FAN : items[k];
+        *in_fans |= fan;
+    }
+    return n;
+}
+
+/* Lists what may lie before the facet in one view, in scratch.candidates; returns how many.
+ * *in_fans: its neighbours may be among them, and itself. */
+static int find_candidates(const visibility *plan, const target *t, visibility_scratch *s,
+                           bool *in_fans)
+{
+    int n = 0;
+    *in_fans = false;
+    for (int root = 0; root < plan->n_roots; root++) {
+        if (root == t->facet->root && t->lists) {
+            const int listed = copy_list(plan, t, s->candidates + n, in_fans);
+            n += listed > 0 ? listed : 0;
+            if (listed >= 0) continue;
+        }
+        n += view_candidates(plan, t->view, &t->shaft, root, s->nodes, s->candidates + n);
+        *in_fans |= root == t->facet->root;
+    }
+    return n;
+}
+
 /* Takes in everything that lies before the facet in one view. Where polygons cover part of it and
  * none of them ends there, together they cover all of it. */
 static outcome find_covers(const visibility *plan, const target *t, visibility_scratch *s)
 {
-    const int n = view_candidates(plan, t->view, &t->shaft, s->nodes, s->candidates);
+    bool in_fans;
+    const int n = find_candidates(plan, t, s, &in_fans);
     if (n == 0) return PARTLY_COVERED;
-    pass_over_fans(plan, t, s);
+    if (in_fans) pass_over_fans(plan, t, s);
     s->n_whole = 0;
     s->ragged = false;
     for (int k = 0; k < n; k++) {
-        if (s->passed_over[s->candidates[k]] == s->n_searches) continue;
+        if (in_fans && s->passed_over[s->candidates[k]] == s->n_searches) continue;
         const outcome found = cover_by(plan, t, s, s->candidates[k]);
         if (found != PARTLY_COVERED) return found;
     }
@@ -334,17 +350,16 @@ static bool trace_facet(const visibility *plan, const target *t, visibility_scra
 static glint_status fraction_of(const visibility *plan, visibility_scratch *s,
                                 const exposed_facet *f, double *fraction, glint_error *error)
 {
-    const bool source_first = s->views[0].cosine[f->facet] >= s->views[1].cosine[f->facet];
-    view *better = &s->views[source_first ? 0 : 1], *other = &s->views[source_first ? 1 : 0];
+    const int better = s->views[0].cosine[f->facet] >= s->views[1].cosine[f->facet] ? 0 : 1;
     target t;
     *fraction = 0.0;
     polygon_list_clear(&s->covers);
-    set_target(plan, better, f, &t);
+    set_target(plan, s, better, f, &t);
     if (!trace_facet(plan, &t, s)) return GLINT_OK;
     outcome found = find_covers(plan, &t, s);
     if (found == PARTLY_COVERED) {
-        set_target(plan, other, f, &t);
-        carry_over(better, &t);
+        set_target(plan, s, 1 - better, f, &t);
+        carry_over(&s->views[better], &t);
         found = find_covers(plan, &t, s);
     }
     if (found == NO_MEMORY) return error_no_memory(error);
@@ -379,6 +394,9 @@ glint_status visibility_fill(const visibility *plan, visibility_scratch *s,
     }
     view_set(plan, poses, sun_body, &s->views[0]);
     view_set(plan, poses, observer_body, &s->views[1]);
+    for (int which = 0; which < 2; which++)
+        for (int root = 0; root < plan->n_roots; root++)
+            s->lists[which][root] = sectors_visit(&s->sectors, plan, poses, &s->views[which], root);
     for (int k = 0; k < plan->n_facets; k++)
         visible[(size_t)k * BRDF_TILE + (size_t)lane] = is_turned_to_both(s, k) ? 1.0 : 0.0;
     for (int k = 0; k < plan->n_exposed; k++) {
@@ -408,9 +426,13 @@ glint_status visibility_scratch_make(const visibility *plan, visibility_scratch 
     s->candidates = malloc(((size_t)plan->n_occluders + NODE_CHILDREN) * sizeof *s->candidates);
     s->passed_over = calloc((size_t)plan->n_occluders, sizeof *s->passed_over);
     const bool views = view_allocate(&s->views[0], plan) && view_allocate(&s->views[1], plan);
+    const bool all_sectors = sectors_allocate(&s->sectors, plan);
+    for (int which = 0; which < 2; which++)
+        s->lists[which] = calloc((size_t)plan->n_roots, sizeof **s->lists);
     const bool outline = polygon_list_room(&s->outline, plan->most_corners);
-    if (!views || !outline || !s->poses || !s->ring || !s->points || !s->nodes || !s->candidates ||
-        !s->passed_over) {
+    s->plan = plan;
+    if (!views || !all_sectors || !s->lists[0] || !s->lists[1] || !outline || !s->poses ||
+        !s->ring || !s->points || !s->nodes || !s->candidates || !s->passed_over) {
         visibility_scratch_free(s);
         return error_no_memory(error);
     }
@@ -424,6 +446,9 @@ void visibility_scratch_free(visibility_scratch *s)
     free(s->poses);
     view_free(&s->views[0]);
     view_free(&s->views[1]);
+    sectors_free(&s->sectors, s->plan);
+    free(s->lists[0]);
+    free(s->lists[1]);
     polygon_list_free(&s->outline);
     polygon_list_free(&s->covers);
     polygon_work_free(&s->work);

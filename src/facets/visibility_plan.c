@@ -342,7 +342,10 @@ static void add_trees(planner *p, tree_item *items, int n)
         next = first + 1;
         while (next < n && items[next].group == items[first].group)
             next++;
-        p->plan->roots[p->plan->n_roots++] = add_node(p, items + first, first, next - first);
+        const int component = p->plan->occluders[items[first].occluder].component;
+        plan_root *root = &p->plan->roots[p->plan->n_roots++];
+        *root = (plan_root){.component = component};
+        root->node = add_node(p, items + first, first, next - first);
     }
 }
 
@@ -516,7 +519,7 @@ static bool node_rises(const planner *p, int facet_index, const plane *face, int
 static bool is_exposed_within(const planner *p, int facet_index, int group)
 {
     for (int k = 0; k < p->plan->n_roots; k++) {
-        const int root = p->plan->roots[k];
+        const int root = p->plan->roots[k].node;
         if (p->node_group[root] == group &&
             node_rises(p, facet_index, &p->planes[facet_index], root))
             return true;
@@ -591,6 +594,13 @@ static glint_status list_exposed(const planner *p, glint_error *error)
         e->offset_m = p->planes[k].offset_m - dot3(p->planes[k].normal, origin_m);
     }
     qsort(plan->exposed, (size_t)n, sizeof *plan->exposed, compare_exposed);
+    for (int k = 0, root = 0; k < n; k++) { /* in the order of the trees, too */
+        const int group = p->group[plan->exposed[k].component];
+        while (p->node_group[plan->roots[root].node] != group)
+            plan->roots[++root].first_exposed = k;
+        plan->exposed[k].root = root;
+        plan->roots[root].n_exposed++;
+    }
     return GLINT_OK;
 }
 

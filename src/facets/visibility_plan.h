@@ -18,6 +18,7 @@ typedef struct occluder {
 /* A facet that something can come before at some time. Component frame. */
 typedef struct exposed_facet {
     int facet, component;
+    int root;                   /* of the tree that its group has */
     int own;                    /* the occluder that it is part of */
     int first, n;               /* its corners, in plan.rings */
     double normal[3], offset_m; /* unit; normal . point of the plane */
@@ -40,6 +41,13 @@ typedef struct plan_node {
     int child[NODE_CHILDREN]; /* indices of nodes or occluders */
 } plan_node;
 
+/* The tree of a group. */
+typedef struct plan_root {
+    int node;
+    int component;                /* one of the group */
+    int first_exposed, n_exposed; /* facets of the group, in plan.exposed */
+} plan_root;
+
 /* Vertices, occluders and exposed facets are in the order of the trees: what is near in space is
  * near in memory. */
 struct visibility {
@@ -59,7 +67,7 @@ struct visibility {
     int *first_blade;       /* owned; n_vertices + 1 */
     fan_blade *blades;      /* owned; those of a vertex side by side; none where there is no fan */
     plan_node *nodes;       /* owned */
-    int *roots;             /* owned */
+    plan_root *roots;       /* owned */
     double size_m;          /* greatest distance from the body's origin */
     double near_m;          /* rounding error of coordinates, for polygon.h */
     int most_corners;       /* of an occluder or a facet */
