@@ -15,7 +15,7 @@ enum { VISITS_BEFORE_LISTS = 4 };
 
 /* From so many items on a list is not kept: the walk finds less. And where the walk for all of the
  * sector finds so many, a list is not tried. */
-enum { LONG = 10, MANY_FOUND = 60 };
+enum { LONG = 10, MANY_FOUND = 400 };
 
 /* Memory for all lists of one thread, bytes; when it is full, no more are made. */
 static const size_t MOST_BYTES = (size_t)256 << 20;
