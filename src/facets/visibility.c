@@ -3,6 +3,7 @@
  * other one is carried over through the facet's plane. */
 #include "base/vec.h"
 #include "facets/polygon.h"
+#include "facets/visibility_rays.h"
 #include "facets/visibility_sectors.h"
 
 #include <math.h>
@@ -381,10 +382,9 @@ static bool is_turned_to_both(const visibility_scratch *s, int k)
     return s->views[0].cosine[k] > BRDF_EDGE && s->views[1].cosine[k] > BRDF_EDGE;
 }
 
-glint_status visibility_fill(const visibility *plan, visibility_scratch *s,
-                             const visibility_pose *poses, const double sun_body[3],
-                             const double observer_body[3], int lane, double *visible,
-                             glint_error *error)
+/* Looks from both directions. */
+static void set_views(const visibility *plan, visibility_scratch *s, const visibility_pose *poses,
+                      const double sun_body[3], const double observer_body[3])
 {
     const size_t size = (size_t)plan->n_components * sizeof *poses;
     if (!s->has_poses || memcmp(s->poses, poses, size) != 0) {
@@ -394,19 +394,51 @@ glint_status visibility_fill(const visibility *plan, visibility_scratch *s,
     }
     view_set(plan, poses, sun_body, &s->views[0]);
     view_set(plan, poses, observer_body, &s->views[1]);
-    for (int which = 0; which < 2; which++)
+    for (int which = 0; which < 2 && !plan->rays; which++)
         for (int root = 0; root < plan->n_roots; root++)
             s->lists[which][root] = sectors_visit(&s->sectors, plan, poses, &s->views[which], root);
+}
+
+/* Rays must be numbers: Embree ends the program where one is not. */
+static glint_status check_numbers(const visibility *plan, const visibility_pose *poses,
+                                  const double sun_body[3], const double observer_body[3],
+                                  glint_error *error)
+{
+    double sum = 0.0;
+    for (int j = 0; j < 3; j++)
+        sum += fabs(sun_body[j]) + fabs(observer_body[j]);
+    for (int c = 0; c < plan->n_components; c++) {
+        for (int j = 0; j < 9; j++)
+            sum += fabs(poses[c].body_component[j]);
+        for (int j = 0; j < 3; j++)
+            sum += fabs(poses[c].origin_m[j]);
+    }
+    if (isfinite(sum)) return GLINT_OK;
+    return error_set(error, GLINT_INTERNAL, PLACE_NONE,
+                     "a direction or a place of a component is no finite number");
+}
+
+glint_status visibility_fill(const visibility *plan, visibility_scratch *s,
+                             const visibility_pose *poses, const double sun_body[3],
+                             const double observer_body[3], int lane, double *visible,
+                             glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    if (plan->rays) status = check_numbers(plan, poses, sun_body, observer_body, error);
+    if (status) return status;
+    set_views(plan, s, poses, sun_body, observer_body);
     for (int k = 0; k < plan->n_facets; k++)
         visible[(size_t)k * BRDF_TILE + (size_t)lane] = is_turned_to_both(s, k) ? 1.0 : 0.0;
-    for (int k = 0; k < plan->n_exposed; k++) {
+    for (int k = 0; k < plan->n_exposed && !status; k++) {
         const exposed_facet *f = &plan->exposed[k];
         if (!is_turned_to_both(s, f->facet)) continue;
         double *fraction = visible + (size_t)f->facet * BRDF_TILE + (size_t)lane;
-        const glint_status status = fraction_of(plan, s, f, fraction, error);
-        if (status) return status;
+        if (plan->rays)
+            *fraction = ray_plan_fraction(plan, plan->rays, poses, f, sun_body, observer_body);
+        else
+            status = fraction_of(plan, s, f, fraction, error);
     }
-    return GLINT_OK;
+    return status;
 }
 
 /* --- scratch --- */

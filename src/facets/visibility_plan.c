@@ -2,7 +2,9 @@
 #include "facets/visibility_plan.h"
 
 #include "base/vec.h"
+#include "facets/rays.h"
 #include "facets/visibility_fans.h"
+#include "facets/visibility_rays.h"
 
 #include <stdlib.h>
 
@@ -758,6 +760,7 @@ glint_status visibility_make(const model *m, const visibility_component *compone
 void visibility_free(visibility *plan)
 {
     if (!plan) return;
+    ray_plan_free(plan->rays, plan->n_components);
     free(plan->vertices);
     free(plan->first_vertex);
     free(plan->normals);
@@ -774,6 +777,18 @@ void visibility_free(visibility *plan)
     free(plan->nodes);
     free(plan->roots);
     free(plan);
+}
+
+glint_status visibility_use_rays(visibility *plan, const model *m, int rays_per_facet,
+                                 glint_error *error)
+{
+    ray_plan_free(plan->rays, plan->n_components);
+    return ray_plan_make(plan, m, rays_per_facet, &plan->rays, error);
+}
+
+bool visibility_has_rays(void)
+{
+    return rays_are_built();
 }
 
 bool visibility_is_trivial(const visibility *plan)

@@ -72,6 +72,7 @@ struct visibility {
     double near_m;          /* rounding error of coordinates, for polygon.h */
     int most_corners;       /* of an occluder or a facet */
     int most_edges;         /* of a body */
+    struct ray_plan *rays;  /* owned; NULL: fractions are exact */
 };
 
 #endif

@@ -16,7 +16,7 @@ typedef struct tile_worker {
 } tile_worker;
 
 /* Plans the shadows that parts cast on each other; *out is NULL where none are wanted or none can
- * be. Errors: GLINT_INTERNAL (memory). */
+ * be. Errors: GLINT_INTERNAL (memory); those of visibility_use_rays. */
 glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_error *error);
 
 /* plan: of tile_plan_shadows, must outlive the worker. Errors: GLINT_INTERNAL (memory);

@@ -5,6 +5,7 @@
 #include "base/band.h"
 #include "base/csv.h"
 #include "facets/model.h"
+#include "facets/visibility.h"
 #include "orbit/attitude.h"
 #include "orbit/earth.h"
 #include "orbit/hinge.h"
@@ -51,11 +52,19 @@ typedef enum orbit_source {
     ORBIT_GEOSTATIONARY
 } orbit_source;
 
-typedef enum self_shadows { SHADOWS_EXACT, SHADOWS_NONE } self_shadows;
+/* In the order of the words in read_scenario.c. */
+typedef enum self_shadows {
+    SHADOWS_EXACT,
+    SHADOWS_NONE,
+    SHADOWS_INTERPOLATED,
+    SHADOWS_RAYS
+} self_shadows;
 
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
 enum { SHARES_MATERIAL = 1u, SHARES_COMPONENT = 2u };
+
+enum { DEFAULT_RAYS_PER_FACET = 64 };
 
 /* A geometry that is given, not computed: directions in the body frame. */
 typedef struct geometry_table {
@@ -135,6 +144,8 @@ struct glint_scenario {
     bool needs_moon; /* attitude or a hinge asks for the Moon */
     satellite satellite;
     self_shadows self_shadows;
+    double shadow_step; /* rad; of SHADOWS_INTERPOLATED */
+    int rays_per_facet; /* of SHADOWS_RAYS */
 
     int n_bands;
     const band_info *bands[SCENARIO_MAX_BANDS];
