@@ -79,26 +79,20 @@ static bool comes_before(point2 p, point2 q)
     return p.x != q.x ? p.x < q.x : p.y < q.y;
 }
 
-static int compare_points(const void *a, const void *b)
-{
-    const point2 *p = a, *q = b;
-    return comes_before(*p, *q) ? -1 : comes_before(*q, *p);
-}
-
-/* By x, then y. Few points are put in their places one by one: qsort takes longer. */
+/* By x, then y: Shell's method with the gaps of Ciura (2001, FCT, 106), which for the some hundred
+ * points that there are at most is several times as fast as qsort, whose comparisons are calls. */
 static void sort_points(point2 *points, int n)
 {
-    enum { FEW = 32 };
-    if (n > FEW) {
-        qsort(points, (size_t)n, sizeof *points, compare_points);
-        return;
-    }
-    for (int k = 1; k < n; k++) {
-        const point2 own = points[k];
-        int at = k;
-        for (; at > 0 && comes_before(own, points[at - 1]); at--)
-            points[at] = points[at - 1];
-        points[at] = own;
+    static const int GAPS[] = {1750, 701, 301, 132, 57, 23, 10, 4, 1};
+    for (size_t g = 0; g < sizeof GAPS / sizeof *GAPS; g++) {
+        const int gap = GAPS[g];
+        for (int k = gap; k < n; k++) {
+            const point2 own = points[k];
+            int at = k;
+            for (; at >= gap && comes_before(own, points[at - gap]); at -= gap)
+                points[at] = points[at - gap];
+            points[at] = own;
+        }
     }
 }
 
@@ -230,6 +224,13 @@ LANES_CLONES static polygon_relation relate_to_lines(const point2 *points, int n
         if (outside[0] | outside[1] | outside[2] | outside[3]) relation = POLYGON_CROSSED;
     }
     return relation;
+}
+
+bool polygon_has_aside(const polygon_list *list, int k, const point2 *points, int n)
+{
+    const polygon_item *p = &list->items[k];
+    return relate_to_lines(points, n, list->lines + p->first_lines, (p->n + 3) / 4) ==
+           POLYGON_APART;
 }
 
 polygon_relation polygon_relate(const polygon_list *list, int k, const polygon_list *covers,

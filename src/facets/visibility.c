@@ -22,6 +22,7 @@ struct visibility_scratch {
     polygon_work work;
     point2 *points;          /* owned; of a body's part before the facet */
     double (*ring)[3];       /* owned; what matters of an outline */
+    double *heights_m;       /* owned; of each vertex, where they are asked for */
     int *nodes, *candidates; /* owned; for the walk through the trees; what it found */
     unsigned *passed_over;   /* owned; of each occluder: number of the last search that did so */
     unsigned n_searches;
@@ -146,26 +147,45 @@ static outcome cover_by_part(const target *t, visibility_scratch *s, const doubl
     return take_cover(t, s, count);
 }
 
-/* The part of a body before the facet's plane: the hull of its corners there and of the points
- * where its edges go through the plane. */
+/* Heights of a body's corners over the facet's plane, in scratch.heights_m; returns the greatest.
+ */
+static double find_heights(const visibility *plan, const target *t, visibility_scratch *s,
+                           const occluder *o)
+{
+    double highest_m = -INFINITY;
+    for (int c = o->first; c < o->first + o->n; c++) {
+        const int v = plan->corners[c];
+        const double height_m = height_of(t, t->view->vertices[v]);
+        s->heights_m[v] = height_m;
+        highest_m = height_m > highest_m ? height_m : highest_m;
+    }
+    return highest_m;
+}
+
+/* The part of a body before the facet's plane: the hull of the corners of its outline there and of
+ * the points where its edges go through the plane. Where the outline is not known, all corners
+ * stand for it. */
 static outcome cover_by_hull(const visibility *plan, const target *t, visibility_scratch *s,
-                             const occluder *o)
+                             const occluder *o, view_ring outline)
 {
     const double(*const vertices)[3] = (const double(*)[3])t->view->vertices;
     int n = 0;
-    double highest_m = -INFINITY;
-    for (int c = o->first; c < o->first + o->n; c++) {
-        const double *p = vertices[plan->corners[c]], height_m = height_of(t, p);
-        highest_m = fmax(highest_m, height_m);
-        if (height_m >= 0.0) s->points[n++] = in_plane(t, p[0], p[1]);
+    if (find_heights(plan, t, s, o) <= t->facet->contact_m) return PARTLY_COVERED;
+    for (int k = outline.first; k < outline.first + outline.n; k++) {
+        const double *p = t->view->points[k];
+        if (height_of(t, p) >= 0.0) s->points[n++] = in_plane(t, p[0], p[1]);
     }
-    if (highest_m <= t->facet->contact_m) return PARTLY_COVERED;
+    for (int c = o->first; outline.n == 0 && c < o->first + o->n; c++) {
+        const double *p = vertices[plan->corners[c]];
+        if (height_of(t, p) >= 0.0) s->points[n++] = in_plane(t, p[0], p[1]);
+    }
     for (int e = o->first_edge; e < o->first_edge + o->n_edges; e++) {
-        const double *p = vertices[plan->edges[e].from], *q = vertices[plan->edges[e].to];
-        const double at_p = height_of(t, p), at_q = height_of(t, q);
+        const int from = plan->edges[e].from, to = plan->edges[e].to;
+        const double at_p = s->heights_m[from], at_q = s->heights_m[to];
         if ((at_p > 0.0 && at_q < 0.0) || (at_p < 0.0 && at_q > 0.0))
-            s->points[n++] = crossing(t, p, q, at_p, at_q);
+            s->points[n++] = crossing(t, vertices[from], vertices[to], at_p, at_q);
     }
+    if (n == 0 || polygon_has_aside(&s->outline, 0, s->points, n)) return PARTLY_COVERED;
     point2 *room = polygon_list_room(&s->covers, n + 1);
     if (!room) return NO_MEMORY;
     return take_cover(t, s, polygon_hull(s->points, n, room));
@@ -241,7 +261,7 @@ static outcome cover_by(const visibility *plan, const target *t, visibility_scra
     const double(*ring)[3] = (const double(*)[3])t->view->points + outline.first;
     const occluder *o = &plan->occluders[k];
     int n = outline.n;
-    if (n == 0) return o->facet < 0 ? cover_by_hull(plan, t, s, o) : PARTLY_COVERED;
+    if (n == 0) return o->facet < 0 ? cover_by_hull(plan, t, s, o, outline) : PARTLY_COVERED;
     if (n > WORTH_TRIMMING) {
         n = trim(&t->shaft, ring, n, s->ring);
         ring = (const double(*)[3])s->ring;
@@ -249,7 +269,8 @@ static outcome cover_by(const visibility *plan, const target *t, visibility_scra
     const shaft_relation lies = view_relate(&t->shaft, ring, n);
     if (lies.aside) return PARTLY_COVERED;
     const bool whole = !lies.below && !lies.crosses_plane;
-    if (o->facet < 0) return whole ? cover_by_ring(t, s, ring, n) : cover_by_hull(plan, t, s, o);
+    if (o->facet < 0)
+        return whole ? cover_by_ring(t, s, ring, n) : cover_by_hull(plan, t, s, o, outline);
     if (lies.below) return PARTLY_COVERED;
     const int n_covers = s->covers.n;
     const outcome found = whole ? cover_by_ring(t, s, ring, n) : cover_by_part(t, s, ring, n);
@@ -451,6 +472,7 @@ glint_status visibility_scratch_make(const visibility *plan, visibility_scratch 
     if (!s) return error_no_memory(error);
     const size_t n = (size_t)plan->most_corners, n_hull = n + (size_t)plan->most_edges;
     s->poses = malloc((size_t)plan->n_components * sizeof *s->poses);
+    s->heights_m = malloc((size_t)plan->n_vertices * sizeof *s->heights_m);
     s->ring = malloc(n * sizeof *s->ring);
     s->points = malloc(n_hull * sizeof *s->points);
     /* the walk writes a whole node's children and then keeps some */
@@ -464,7 +486,7 @@ glint_status visibility_scratch_make(const visibility *plan, visibility_scratch 
     const bool outline = polygon_list_room(&s->outline, plan->most_corners);
     s->plan = plan;
     if (!views || !all_sectors || !s->lists[0] || !s->lists[1] || !outline || !s->poses ||
-        !s->ring || !s->points || !s->nodes || !s->candidates || !s->passed_over) {
+        !s->ring || !s->heights_m || !s->points || !s->nodes || !s->candidates || !s->passed_over) {
         visibility_scratch_free(s);
         return error_no_memory(error);
     }
@@ -485,6 +507,7 @@ void visibility_scratch_free(visibility_scratch *s)
     polygon_list_free(&s->covers);
     polygon_work_free(&s->work);
     free(s->ring);
+    free(s->heights_m);
     free(s->points);
     free(s->nodes);
     free(s->candidates);
