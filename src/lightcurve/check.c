@@ -5,6 +5,7 @@
 #include "brdf/table.h"
 #include "lightcurve/columns.h"
 #include "lightcurve/facts.h"
+#include "lightcurve/geometry.h"
 #include "scenario/read_material.h"
 
 #include <math.h>
@@ -79,6 +80,18 @@ static glint_status report_components(const satellite *sat, text *t, glint_error
                         facts.lo_m[0], facts.hi_m[0], facts.lo_m[1], facts.hi_m[1], facts.lo_m[2],
                         facts.hi_m[2]);
     }
+    return GLINT_OK;
+}
+
+/* How many facets anything can come before. */
+static glint_status report_shadows(const satellite *sat, text *t, glint_error *error)
+{
+    visibility *plan;
+    const glint_status status = satellite_plan_shadows(sat, &plan, error);
+    if (status) return status;
+    text_printf(t, "shadows     %d of %d facets can be shadowed or hidden by others\n",
+                visibility_n_exposed(plan), sat->model.n_facets);
+    visibility_free(plan);
     return GLINT_OK;
 }
 
@@ -184,7 +197,8 @@ static glint_status describe(const glint_scenario *s, bool is_model, text *t, gl
                     (long long)s->geometry.n);
     else if (!is_model)
         report_time(s, t);
-    const glint_status status = report_components(&s->satellite, t, error);
+    glint_status status = report_components(&s->satellite, t, error);
+    if (!status) status = report_shadows(&s->satellite, t, error);
     if (status) return status;
     report_materials(s, t);
     if (!is_model) report_run(s, t);

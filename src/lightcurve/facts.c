@@ -194,7 +194,7 @@ void facts_of_orbit(const glint_scenario *s, fact_list *out)
 
 /* What interpolated shadows are off by, of the mean flux, for each rad of shadow_step: as measured
  * on several bodies (docs/physics.md, Shadows between parts). */
-static const double INTERPOLATION_RMS_PER_RAD = 0.02;
+static const double INTERPOLATION_RMS_PER_RAD = 0.017;
 
 static void add_shadows(const glint_scenario *s, fact_list *out)
 {
