@@ -360,19 +360,40 @@ void polygon_work_free(polygon_work *work)
 
 /* --- few covers --- */
 
+/* Which of four lines have points of a ring on their outer side; *apart is set where one has no
+ * points on its inner side. */
+LANES_CLONES static void find_cutting(const point2 *points, int n, const polygon_lines *lines,
+                                      bool cuts[4], bool *apart)
+{
+    const double4 a = lines->a, b = lines->b, c = lines->c, slack = lines->slack;
+    mask4 inside = {0}, outside = {0};
+    for (int k = 0; k < n; k++) {
+        const double4 side = a * points[k].x + b * points[k].y + c;
+        inside |= side > slack;
+        outside |= side < -slack;
+    }
+    for (int j = 0; j < 4; j++)
+        cuts[j] = outside[j] != 0;
+    *apart = !(inside[0] & inside[1] & inside[2] & inside[3]);
+}
+
 /* What a ring and a cover have in common: *out gets it, in one of the two rooms; returns its number
  * of points. */
 static int intersect(const polygon_list *covers, const polygon_item *cover, const point2 *ring,
                      int n, point2 *room, point2 *other_room, const point2 **out)
 {
-    for (int edge = 0; edge < cover->n && n > 0; edge++) {
-        const cut_line line = line_of(covers, cover, edge);
-        const polygon_relation relation = relate_to_line(ring, n, &line);
-        if (relation == POLYGON_APART) return 0;
-        if (relation == POLYGON_COVERED) continue;
-        point2 *const next = ring == room ? other_room : room;
-        n = clip(ring, n, &line, next);
-        ring = next;
+    for (int first = 0; first < cover->n; first += 4) {
+        bool cuts[4], apart;
+        find_cutting(ring, n, &covers->lines[cover->first_lines + first / 4], cuts, &apart);
+        if (apart) return 0;
+        for (int edge = first; edge < first + 4 && edge < cover->n; edge++) {
+            if (!cuts[edge - first]) continue;
+            const cut_line line = line_of(covers, cover, edge);
+            point2 *const next = ring == room ? other_room : room;
+            n = clip(ring, n, &line, next);
+            if (n < 3) return 0;
+            ring = next;
+        }
     }
     *out = ring;
     return n;

@@ -162,33 +162,68 @@ static double find_heights(const visibility *plan, const target *t, visibility_s
     return highest_m;
 }
 
-/* The part of a body before the facet's plane: the hull of the corners of its outline there and of
- * the points where its edges go through the plane. Where the outline is not known, all corners
- * stand for it. */
-static outcome cover_by_hull(const visibility *plan, const target *t, visibility_scratch *s,
-                             const occluder *o, view_ring outline)
+/* Takes in the hull of the n points in scratch.points. */
+static outcome cover_by_points(const target *t, visibility_scratch *s, int n)
 {
-    const double(*const vertices)[3] = (const double(*)[3])t->view->vertices;
-    int n = 0;
-    if (find_heights(plan, t, s, o) <= t->facet->contact_m) return PARTLY_COVERED;
-    for (int k = outline.first; k < outline.first + outline.n; k++) {
-        const double *p = t->view->points[k];
-        if (height_of(t, p) >= 0.0) s->points[n++] = in_plane(t, p[0], p[1]);
-    }
-    for (int c = o->first; outline.n == 0 && c < o->first + o->n; c++) {
-        const double *p = vertices[plan->corners[c]];
-        if (height_of(t, p) >= 0.0) s->points[n++] = in_plane(t, p[0], p[1]);
-    }
-    for (int e = o->first_edge; e < o->first_edge + o->n_edges; e++) {
-        const int from = plan->edges[e].from, to = plan->edges[e].to;
-        const double at_p = s->heights_m[from], at_q = s->heights_m[to];
-        if ((at_p > 0.0 && at_q < 0.0) || (at_p < 0.0 && at_q > 0.0))
-            s->points[n++] = crossing(t, vertices[from], vertices[to], at_p, at_q);
-    }
     if (n == 0 || polygon_has_aside(&s->outline, 0, s->points, n)) return PARTLY_COVERED;
     point2 *room = polygon_list_room(&s->covers, n + 1);
     if (!room) return NO_MEMORY;
     return take_cover(t, s, polygon_hull(s->points, n, room));
+}
+
+/* Appends to n points those at which a body's edges go through the facet's plane.
+ * A corner in the plane counts as before it, as it does in cover_by_part. */
+static int add_crossings(const visibility *plan, const target *t, visibility_scratch *s,
+                         const occluder *o, int n)
+{
+    const double(*const vertices)[3] = (const double(*)[3])t->view->vertices;
+    for (int e = o->first_edge; e < o->first_edge + o->n_edges; e++) {
+        const int from = plan->edges[e].from, to = plan->edges[e].to;
+        const double at_p = s->heights_m[from], at_q = s->heights_m[to];
+        if ((at_p >= 0.0) != (at_q >= 0.0))
+            s->points[n++] = crossing(t, vertices[from], vertices[to], at_p, at_q);
+    }
+    return n;
+}
+
+/* Whether a body may meet the facet itself, not only its plane. */
+static bool may_pierce(const visibility *plan, const exposed_facet *f, int k)
+{
+    if (plan->component_root[plan->occluders[k].component] != f->root) return true;
+    for (int j = f->first_piercing; j < f->first_piercing + f->n_piercing; j++)
+        if (plan->piercing[j] == k) return true;
+    return false;
+}
+
+/* Where the outline of a body is not known: the hull of its corners before the facet's plane and of
+ * the points where its edges go through it. */
+static outcome cover_by_hull(const visibility *plan, const target *t, visibility_scratch *s,
+                             const occluder *o)
+{
+    int n = 0;
+    if (find_heights(plan, t, s, o) <= t->facet->contact_m) return PARTLY_COVERED;
+    for (int c = o->first; c < o->first + o->n; c++) {
+        const double *p = t->view->vertices[plan->corners[c]];
+        if (height_of(t, p) >= 0.0) s->points[n++] = in_plane(t, p[0], p[1]);
+    }
+    return cover_by_points(t, s, add_crossings(plan, t, s, o, n));
+}
+
+/* The part of a body before the facet's plane. What it hides ends at that part of its outline that
+ * is before the plane, and at the section along which the plane cuts it: the section and the ring
+ * of that part of the outline, closed straight through the section, cover the same together. */
+static outcome cover_by_cut_body(const visibility *plan, const target *t, visibility_scratch *s,
+                                 int k, view_ring outline, bool outline_below)
+{
+    const occluder *o = &plan->occluders[k];
+    const double(*ring)[3] = (const double(*)[3])t->view->points + outline.first;
+    if (!outline_below) {
+        const outcome found = cover_by_part(t, s, ring, outline.n);
+        if (found != PARTLY_COVERED) return found;
+    }
+    if (!may_pierce(plan, t->facet, k)) return PARTLY_COVERED;
+    if (find_heights(plan, t, s, o) <= t->facet->contact_m) return PARTLY_COVERED;
+    return cover_by_points(t, s, add_crossings(plan, t, s, o, 0));
 }
 
 /* Whether an edge may lie across the facet: it has points of the facet on its outer side, and its
@@ -261,7 +296,7 @@ static outcome cover_by(const visibility *plan, const target *t, visibility_scra
     const double(*ring)[3] = (const double(*)[3])t->view->points + outline.first;
     const occluder *o = &plan->occluders[k];
     int n = outline.n;
-    if (n == 0) return o->facet < 0 ? cover_by_hull(plan, t, s, o, outline) : PARTLY_COVERED;
+    if (n == 0) return o->facet < 0 ? cover_by_hull(plan, t, s, o) : PARTLY_COVERED;
     if (n > WORTH_TRIMMING) {
         n = trim(&t->shaft, ring, n, s->ring);
         ring = (const double(*)[3])s->ring;
@@ -270,7 +305,8 @@ static outcome cover_by(const visibility *plan, const target *t, visibility_scra
     if (lies.aside) return PARTLY_COVERED;
     const bool whole = !lies.below && !lies.crosses_plane;
     if (o->facet < 0)
-        return whole ? cover_by_ring(t, s, ring, n) : cover_by_hull(plan, t, s, o, outline);
+        return whole ? cover_by_ring(t, s, ring, n)
+                     : cover_by_cut_body(plan, t, s, k, outline, lies.below);
     if (lies.below) return PARTLY_COVERED;
     const int n_covers = s->covers.n;
     const outcome found = whole ? cover_by_ring(t, s, ring, n) : cover_by_part(t, s, ring, n);

@@ -268,20 +268,24 @@ static void box_of_items(const tree_item *items, int n, double box[6])
         join_boxes(box, items[k].box);
 }
 
+static void box_of_vertices(const planner *p, const int *vertices, int n, double box[6])
+{
+    for (int j = 0; j < 3; j++)
+        box[j] = INFINITY, box[3 + j] = -INFINITY;
+    for (int k = 0; k < n; k++) {
+        const double *at = p->vertices[vertices[k]];
+        const double point[6] = {at[0], at[1], at[2], at[0], at[1], at[2]};
+        join_boxes(box, point);
+    }
+}
+
 static void make_items(const planner *p, tree_item *items)
 {
     for (int k = 0; k < p->plan->n_occluders; k++) {
         const occluder *o = &p->plan->occluders[k];
         items[k] = (tree_item){.occluder = k, .group = p->group[o->component]};
         items[k].key = items[k].group;
-        for (int v = 0; v < o->n; v++) {
-            const double *at = p->vertices[p->plan->corners[o->first + v]];
-            const double point[6] = {at[0], at[1], at[2], at[0], at[1], at[2]};
-            if (v == 0)
-                memcpy(items[k].box, point, sizeof point);
-            else
-                join_boxes(items[k].box, point);
-        }
+        box_of_vertices(p, p->plan->corners + o->first, o->n, items[k].box);
     }
 }
 
@@ -606,6 +610,121 @@ static glint_status list_exposed(const planner *p, glint_error *error)
     return GLINT_OK;
 }
 
+/* --- bodies that go through facets --- */
+
+/* A growing list of bodies. */
+typedef struct body_list {
+    int *items;
+    int n, capacity;
+} body_list;
+
+static bool append_body(body_list *list, int body)
+{
+    if (list->n == list->capacity) {
+        const int capacity = 2 * list->capacity + 64;
+        int *items = realloc(list->items, (size_t)capacity * sizeof *items);
+        if (!items) return false;
+        list->items = items;
+        list->capacity = capacity;
+    }
+    list->items[list->n++] = body;
+    return true;
+}
+
+static bool boxes_meet(const double a[6], const double b[6], double margin_m)
+{
+    for (int j = 0; j < 3; j++)
+        if (a[j] > b[3 + j] + margin_m || b[j] > a[3 + j] + margin_m) return false;
+    return true;
+}
+
+/* Whether all corners of a body are outside the side of a facet's outline along one of its edges,
+ * by more than what counts as contact. */
+static bool is_beside_edge(const planner *p, const exposed_facet *f, const occluder *o, int edge)
+{
+    const int *ring = p->solids.corners + f->first;
+    const double *from = p->vertices[ring[edge]];
+    double along[3], inwards[3], d[3];
+    sub3(p->vertices[ring[(edge + 1) % f->n]], from, along);
+    cross3(p->planes[f->facet].normal, along, inwards);
+    if (!(unit3(inwards, inwards) > 0.0)) return false;
+    for (int c = o->first; c < o->first + o->n; c++) {
+        sub3(p->vertices[p->plan->corners[c]], from, d);
+        if (dot3(d, inwards) > -CONTACT * p->plan->size_m) return false;
+    }
+    return true;
+}
+
+/* Whether all corners of a facet are outside a face of a body. */
+static bool is_before_face(const planner *p, const exposed_facet *f, int face)
+{
+    const plane *own = &p->planes[face];
+    for (int c = f->first; c < f->first + f->n; c++) {
+        const double *at = p->vertices[p->solids.corners[c]];
+        if (dot3(own->normal, at) - own->offset_m < own->contact_m) return false;
+    }
+    return true;
+}
+
+/* Whether a body may go through a facet; false only where it certainly does not. */
+static bool may_pierce(const planner *p, const exposed_facet *f, const occluder *o)
+{
+    const plane *own = &p->planes[f->facet];
+    double least_m = INFINITY;
+    for (int c = o->first; c < o->first + o->n; c++) {
+        const double *at = p->vertices[p->plan->corners[c]];
+        least_m = fmin(least_m, dot3(own->normal, at) - own->offset_m);
+    }
+    if (least_m > own->contact_m) return false;
+    for (int edge = 0; edge < f->n; edge++)
+        if (is_beside_edge(p, f, o, edge)) return false;
+    for (int e = o->first_edge; e < o->first_edge + o->n_edges; e++)
+        if (is_before_face(p, f, p->solids.edges[e].left) ||
+            is_before_face(p, f, p->solids.edges[e].right))
+            return false;
+    return true;
+}
+
+/* Appends the bodies below a node that may go through a facet; box: the facet's. */
+static bool list_piercing(const planner *p, const exposed_facet *f, const double box[6], int k,
+                          body_list *list)
+{
+    const visibility *plan = p->plan;
+    const plan_node *node = &plan->nodes[k];
+    bool ok = true;
+    if (!boxes_meet(box, p->box[k], CONTACT * plan->size_m)) return true;
+    for (int j = 0; j < node->n && ok; j++) {
+        const int child = node->child[j];
+        if (!node->leaf)
+            ok = list_piercing(p, f, box, child, list);
+        else if (plan->occluders[child].facet < 0 && child != f->own &&
+                 may_pierce(p, f, &plan->occluders[child]))
+            ok = append_body(list, child);
+    }
+    return ok;
+}
+
+static glint_status find_piercing(const planner *p, glint_error *error)
+{
+    visibility *plan = p->plan;
+    body_list list = {0};
+    bool ok = true;
+    for (int k = 0; k < plan->n_exposed && ok; k++) {
+        exposed_facet *f = &plan->exposed[k];
+        double box[6];
+        box_of_vertices(p, p->solids.corners + f->first, f->n, box);
+        f->first_piercing = list.n;
+        ok = list_piercing(p, f, box, plan->roots[f->root].node, &list);
+        f->n_piercing = list.n - f->first_piercing;
+    }
+    plan->piercing = list.items;
+    for (int c = 0; c < plan->n_components; c++)
+        for (int root = 0; root < plan->n_roots; root++)
+            if (p->node_group[plan->roots[root].node] == p->group[c])
+                plan->component_root[c] = root;
+    return ok ? GLINT_OK : error_no_memory(error);
+}
+
 /* --- vertices in order --- */
 
 /* Gives the vertices new numbers, in the order in which the occluders come to them; those of a
@@ -694,10 +813,11 @@ static bool allocate_plan(visibility *plan)
     plan->edges = malloc(n_corners * sizeof *plan->edges);
     plan->first_blade = calloc((size_t)plan->n_vertices + 1, sizeof *plan->first_blade);
     plan->nodes = malloc(2 * n_facets * sizeof *plan->nodes);
+    plan->component_root = calloc(n_components, sizeof *plan->component_root);
     plan->roots = malloc((n_components + 1) * sizeof *plan->roots);
     return plan->vertices && plan->first_vertex && plan->normals && plan->first_facet &&
            plan->is_exposed && plan->rings && plan->occluders && plan->corners && plan->beyond &&
-           plan->edges && plan->first_blade && plan->nodes && plan->roots;
+           plan->edges && plan->first_blade && plan->nodes && plan->component_root && plan->roots;
 }
 
 static bool allocate(planner *p)
@@ -728,6 +848,7 @@ static glint_status make_plan(planner *p, glint_error *error)
     if (!status) status = build_trees(p, error);
     if (!status) status = find_exposed(p, error);
     if (!status) status = list_exposed(p, error);
+    if (!status) status = find_piercing(p, error);
     if (!status) status = renumber(p, error);
     return status;
 }
@@ -772,6 +893,8 @@ void visibility_free(visibility *plan)
     free(plan->corners);
     free(plan->beyond);
     free(plan->edges);
+    free(plan->component_root);
+    free(plan->piercing);
     free(plan->first_blade);
     free(plan->blades);
     free(plan->nodes);

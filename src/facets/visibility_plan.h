@@ -23,6 +23,8 @@ typedef struct exposed_facet {
     int first, n;               /* its corners, in plan.rings */
     double normal[3], offset_m; /* unit; normal . point of the plane */
     double contact_m;           /* what rises no higher over the plane lies in it */
+    int first_piercing,
+        n_piercing; /* in plan.piercing: bodies of its group that may go through it */
 } exposed_facet;
 
 /* A facet of those around a vertex that form a closed fan (visibility_fans.h). */
@@ -64,6 +66,8 @@ struct visibility {
     int *beyond;            /* owned; n_corners: of a polygon, the facet beyond the edge from this
                                corner to the next; -1 where there is none, or a splinter */
     solid_edge *edges;      /* owned; of the bodies */
+    int *component_root;    /* owned; of each component: the tree of its group */
+    int *piercing;          /* owned; bodies that exposed facets may meet */
     int *first_blade;       /* owned; n_vertices + 1 */
     fan_blade *blades;      /* owned; those of a vertex side by side; none where there is no fan */
     plan_node *nodes;       /* owned */
