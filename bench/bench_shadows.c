@@ -219,10 +219,11 @@ static void add_prism(facet_list *list, int sides, double radius_m, double lengt
     add_primitive(list, &spec);
 }
 
-/* Half the facets in modules of at most 64 sides along x and z in turn, half in panels. */
+/* Three or seven modules of at most 48 sides, along x and z in turn; the rest are panels. */
 static void make_station(facet_list *list, int n, uint64_t *state)
 {
-    const int n_modules = n < 200 ? 3 : 3 + n / 200, sides = n / 2 / n_modules - 2;
+    const int n_modules = n < 200 ? 3 : 7, most = n / 2 / n_modules - 2;
+    const int sides = most < 48 ? most : 48;
     const double truss_lo[3] = {-1, -30, -1}, truss_hi[3] = {1, 30, 1};
     (void)state;
     for (int k = 0; k < n_modules; k++) {
@@ -255,8 +256,8 @@ static void make_foil(facet_list *list, int n, uint64_t *state)
         primitive_spec dish = start_primitive("dish");
         set_key(&dish, "radius_m", 0.9, 0, 0);
         set_key(&dish, "depth_m", 0.3, 0, 0);
-        set_key(&dish, "sides", n < 200 ? 6 : sqrt(0.3 * n), 0, 0);
-        set_key(&dish, "rings", n < 200 ? 1 : sqrt(0.1 * n), 0, 0);
+        set_key(&dish, "sides", n < 200 ? 6 : floor(sqrt(0.3 * n)), 0, 0);
+        set_key(&dish, "rings", n < 200 ? 1 : floor(sqrt(0.1 * n)), 0, 0);
         set_key(&dish, "centre_m", axes[k][0] * 1.3, k ? 0.9 : -0.9, 1);
         set_key(&dish, "axis", axes[k][0], axes[k][1], axes[k][2]);
         add_primitive(list, &dish);
@@ -342,7 +343,7 @@ static const int FACETS[] = {72, 1000, 10000};
 /* --- measuring --- */
 
 /* Rows after which lists have been made for most directions (visibility_sectors.h). */
-enum { WARM_ROWS = 1000 };
+enum { WARM_ROWS = 500 };
 
 typedef struct scene {
     model model;

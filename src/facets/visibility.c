@@ -107,12 +107,41 @@ static point2 crossing(const target *t, const double p[3], const double q[3], do
 
 /* --- covers --- */
 
+/* Which sides of a box a point is outside of, a bit for each. */
+static inline unsigned sides_outside(const box2 *box, const double *p)
+{
+    return (p[0] < box->lo_x) | (p[0] > box->hi_x) << 1 | (p[1] < box->lo_y) << 2 |
+           (p[1] > box->hi_y) << 3;
+}
+
+/* Leaves out of a ring what makes no difference inside a box: of points that follow each other
+ * outside the same side of it, only the first and the last matter. Points of `size` numbers, of
+ * which the first two are x and y. Returns how many are left, in `out`, which may be `ring`. */
+static int trim(const box2 *box, const double *ring, int size, int n, double *out)
+{
+    const unsigned first = sides_outside(box, ring);
+    unsigned common = 0, own = first; /* `common` to all since the last one kept */
+    int count = 0;
+    for (int k = 0; k < n; k++) {
+        const double *p = ring + (long)size * k;
+        const unsigned next = k + 1 < n ? sides_outside(box, p + size) : first;
+        const bool matters = (common & own & next) == 0;
+        common = matters ? own : common & own;
+        own = next;
+        if (matters) memmove(out + (long)size * count++, p, (size_t)size * sizeof *out);
+    }
+    return count;
+}
+
 /* How the search for covers ended. */
 typedef enum outcome { PARTLY_COVERED, ALL_COVERED, NO_MEMORY } outcome;
 
 /* Takes in a cover that was written behind the list, if it covers any of the facet. */
 static outcome take_cover(const target *t, visibility_scratch *s, int n)
 {
+    const polygon_item *outline = &s->outline.items[0];
+    double *points = &s->covers.points[s->covers.n_points].x;
+    if (n > WORTH_TRIMMING) n = trim(&outline->box, points, 2, n, points);
     if (!polygon_list_take(&s->covers, n, t->near_m)) return PARTLY_COVERED;
     const polygon_relation relation = polygon_relate(&s->outline, 0, &s->covers, s->covers.n - 1);
     if (relation == POLYGON_APART) polygon_list_drop(&s->covers);
@@ -264,30 +293,6 @@ static void note_edges(const visibility *plan, const target *t, visibility_scrat
     }
 }
 
-/* Which sides of the facet's box a point is outside of, a bit for each. */
-static inline unsigned sides_outside(const shaft *s, const double p[3])
-{
-    return (p[0] < s->lo_x) | (p[0] > s->hi_x) << 1 | (p[1] < s->lo_y) << 2 | (p[1] > s->hi_y) << 3;
-}
-
-/* Leaves out of a ring what makes no difference to the facet: of points that follow each other
- * outside the same side of its box, only the first and the last matter. Returns how many are left,
- * in `out`. */
-static int trim(const shaft *s, const double (*ring)[3], int n, double (*out)[3])
-{
-    unsigned common = 0,
-             own = sides_outside(s, ring[0]); /* `common` to all since the last one kept */
-    int count = 0;
-    for (int k = 0; k < n; k++) {
-        const unsigned next = sides_outside(s, ring[k + 1 < n ? k + 1 : 0]);
-        const bool matters = (common & own & next) == 0;
-        if (matters) copy3(ring[k], out[count++]);
-        common = matters ? own : common & own;
-        own = next;
-    }
-    return count;
-}
-
 /* Takes in what an occluder covers of the facet. A body may rise before the facet's plane where its
  * outline does not. */
 static outcome cover_by(const visibility *plan, const target *t, visibility_scratch *s, int k)
@@ -298,7 +303,9 @@ static outcome cover_by(const visibility *plan, const target *t, visibility_scra
     int n = outline.n;
     if (n == 0) return o->facet < 0 ? cover_by_hull(plan, t, s, o) : PARTLY_COVERED;
     if (n > WORTH_TRIMMING) {
-        n = trim(&t->shaft, ring, n, s->ring);
+        const shaft *before = &t->shaft;
+        const box2 box = {before->lo_x, before->lo_y, before->hi_x, before->hi_y};
+        n = trim(&box, ring[0], 3, n, s->ring[0]);
         ring = (const double(*)[3])s->ring;
     }
     const shaft_relation lies = view_relate(&t->shaft, ring, n);

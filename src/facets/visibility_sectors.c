@@ -142,8 +142,9 @@ static bool may_cover(const visibility *plan, const view *v, const shaft *s, con
     double highest_m = -INFINITY, z = -INFINITY;
     for (int k = o->first; k < o->first + o->n; k++) {
         const double *p = v->vertices[plan->corners[k]];
-        highest_m = fmax(highest_m, dot3(s->normal, p) - s->offset_m);
-        z = fmax(z, p[2]);
+        const double height_m = dot3(s->normal, p) - s->offset_m;
+        highest_m = height_m > highest_m ? height_m : highest_m; /* fmax would be a call */
+        z = p[2] > z ? p[2] : z;
     }
     const double before_m = z - s->lo_z + plan->near_m;
     if (highest_m <= CONTACT_FRACTION * s->contact_m || before_m <= 0.0) return false;
