@@ -134,15 +134,15 @@ START_TEST(test_scenario_kepler_keys_and_defaults)
                   "[orbit]\nkepler = { semi_major_axis_km = 26562, eccentricity = 0.7, "
                   "inclination_deg = 63.4, raan_deg = -20, argument_of_perigee_deg = 270, "
                   "mean_anomaly_deg = 400, epoch = 2025-07-25T20:36:30Z, j2 = false }\n");
-    ck_assert_int_eq(s->orbit_source, ORBIT_KEPLER);
-    assert_rel(s->kepler.semi_major_axis_m, 26562e3, rounding);
-    assert_near(s->kepler.eccentricity, 0.7, 0);
-    assert_rel(s->kepler.inclination, 63.4 * PI / 180, rounding);
-    assert_rel(s->kepler.raan, -20 * PI / 180, rounding);
-    assert_rel(s->kepler.argument_of_perigee, 270 * PI / 180, rounding);
-    assert_rel(s->kepler.mean_anomaly, 400 * PI / 180, rounding);
-    assert_near(s->orbit_epoch_s, -30, 1e-9); /* s: rounding of Julian dates */
-    ck_assert(!s->j2);
+    ck_assert_int_eq(s->orbit.source, ORBIT_KEPLER);
+    assert_rel(s->orbit.kepler.semi_major_axis_m, 26562e3, rounding);
+    assert_near(s->orbit.kepler.eccentricity, 0.7, 0);
+    assert_rel(s->orbit.kepler.inclination, 63.4 * PI / 180, rounding);
+    assert_rel(s->orbit.kepler.raan, -20 * PI / 180, rounding);
+    assert_rel(s->orbit.kepler.argument_of_perigee, 270 * PI / 180, rounding);
+    assert_rel(s->orbit.kepler.mean_anomaly, 400 * PI / 180, rounding);
+    assert_near(s->orbit.epoch_s, -30, 1e-9); /* s: rounding of Julian dates */
+    ck_assert(!s->orbit.j2);
     glint_scenario_free(s);
 }
 END_TEST
@@ -152,16 +152,18 @@ START_TEST(test_scenario_circular_keys_and_defaults)
     glint_scenario *s = read_with(SOUND, PART_ORBIT,
                                   "[orbit]\ncircular = { height_km = 500, inclination_deg = 97, "
                                   "raan_deg = 1, argument_of_latitude_deg = -90 }\n");
-    ck_assert_int_eq(s->orbit_source, ORBIT_CIRCULAR);
-    assert_rel(s->kepler.semi_major_axis_m, 6878.137e3, rounding); /* above the equatorial radius */
-    assert_near(s->kepler.eccentricity, 0, 0);
-    assert_rel(s->kepler.mean_anomaly + s->kepler.argument_of_perigee, -PI / 2, rounding);
-    assert_near(s->orbit_epoch_s, 0, 0); /* the start */
-    ck_assert(s->j2);
+    ck_assert_int_eq(s->orbit.source, ORBIT_CIRCULAR);
+    assert_rel(s->orbit.kepler.semi_major_axis_m, 6878.137e3,
+               rounding); /* above the equatorial radius */
+    assert_near(s->orbit.kepler.eccentricity, 0, 0);
+    assert_rel(s->orbit.kepler.mean_anomaly + s->orbit.kepler.argument_of_perigee, -PI / 2,
+               rounding);
+    assert_near(s->orbit.epoch_s, 0, 0); /* the start */
+    ck_assert(s->orbit.j2);
     glint_scenario_free(s);
     s = read_with(SOUND, PART_ORBIT, "[orbit]\ncircular = { geostationary_longitude_deg = -75 }\n");
-    ck_assert_int_eq(s->orbit_source, ORBIT_GEOSTATIONARY);
-    assert_rel(s->geostationary_longitude, -75 * PI / 180, rounding);
+    ck_assert_int_eq(s->orbit.source, ORBIT_GEOSTATIONARY);
+    assert_rel(s->orbit.geostationary_longitude, -75 * PI / 180, rounding);
     glint_scenario_free(s);
 }
 END_TEST
@@ -190,8 +192,8 @@ START_TEST(test_scenario_element_sets_by_file_name_number_or_lines)
         char content[512];
         snprintf(content, sizeof content, "[orbit]\n%s", all[k].text);
         glint_scenario *s = read_with(SOUND, PART_ORBIT, content);
-        ck_assert_int_eq(s->orbit_source, ORBIT_TLE);
-        ck_assert_int_eq(s->tle.number, all[k].number);
+        ck_assert_int_eq(s->orbit.source, ORBIT_TLE);
+        ck_assert_int_eq(s->orbit.sets.sets[0].number, all[k].number);
         glint_scenario_free(s);
     }
 }
@@ -253,10 +255,10 @@ START_TEST(test_scenario_attitude_laws_are_read)
         char content[512];
         snprintf(content, sizeof content, "[attitude]\n%s", all[k]);
         glint_scenario *s = read_with(SOUND, PART_ATTITUDE, content);
-        ck_assert_msg(strncmp(all[k] + 7, s->attitude.law->name, strlen(s->attitude.law->name)) ==
-                          0,
-                      "%s", s->attitude.law->name);
-        ck_assert(!s->attitude.has_offset);
+        ck_assert_msg(strncmp(all[k] + 7, s->attitude.legs[0].law.law->name,
+                              strlen(s->attitude.legs[0].law.law->name)) == 0,
+                      "%s", s->attitude.legs[0].law.law->name);
+        ck_assert(!s->attitude.legs[0].law.has_offset);
         glint_scenario_free(s);
     }
 }
@@ -269,7 +271,7 @@ START_TEST(test_scenario_spin_and_offset_values)
         "[attitude]\nlaw = \"spin\"\nbody_axis = [3, 0, 4]\npole = { ra_deg = 200, dec_deg = 35 }\n"
         "rate_deg_s = 7\nphase_deg = 25\nepoch = 2025-07-25T20:36:00Z\n"
         "offset_deg = { axis = [0, 2, 0], angle = 90 }\n");
-    const attitude *a = &s->attitude;
+    const attitude *a = &s->attitude.legs[0].law;
     assert_vec(a->axis, 0.6, 0, 0.8, rounding);
     assert_rel(a->rate_rad_s, 7 * PI / 180, rounding);
     assert_rel(a->phase_rad, 25 * PI / 180, rounding);
@@ -282,9 +284,9 @@ START_TEST(test_scenario_spin_and_offset_values)
     s = read_with(SOUND, PART_ATTITUDE,
                   "[attitude]\nlaw = \"spin\"\nbody_axis = [0, 0, 1]\npole = \"north\"\n"
                   "period_s = 30\n");
-    assert_rel(s->attitude.rate_rad_s, 2 * PI / 30, rounding);
-    assert_near(s->attitude.phase_rad, 0, 0);
-    assert_near(s->attitude.epoch_s, 0, 0);
+    assert_rel(s->attitude.legs[0].law.rate_rad_s, 2 * PI / 30, rounding);
+    assert_near(s->attitude.legs[0].law.phase_rad, 0, 0);
+    assert_near(s->attitude.legs[0].law.epoch_s, 0, 0);
     glint_scenario_free(s);
 }
 END_TEST
@@ -315,7 +317,7 @@ START_TEST(test_scenario_every_direction_is_read)
                  "second_to = { ra_deg = 77, dec_deg = 11 }\n",
                  all[k].text);
         glint_scenario *s = read_with(SOUND, PART_ATTITUDE, content);
-        ck_assert_int_eq(s->attitude.to.kind, all[k].kind);
+        ck_assert_int_eq(s->attitude.legs[0].law.to.kind, all[k].kind);
         ck_assert_int_eq(s->needs_moon, all[k].kind == DIRECTION_MOON);
         glint_scenario_free(s);
     }
@@ -560,8 +562,8 @@ START_TEST(test_scenario_overrides_of_every_kind)
     ck_assert_str_eq(s->title, "set");
     ck_assert_int_eq(s->n_bands, 2);
     assert_rel(s->site.longitude, 2 * PI / 180, rounding);
-    assert_rel(s->kepler.raan, PI / 2, rounding);
-    assert_rel(s->kepler.inclination, 98.6 * PI / 180, rounding);
+    assert_rel(s->orbit.kepler.raan, PI / 2, rounding);
+    assert_rel(s->orbit.kepler.inclination, 98.6 * PI / 180, rounding);
     ck_assert_str_eq(s->satellite.components[0].name, "body");
     assert_near(s->satellite.materials[0].bands[0].lobes[0].params[0], 0.25, 0);
     assert_rel(model_material_area(&s->satellite.model, 0, NULL), 2 * (1 + 7 + 7), 1e-14);

@@ -128,7 +128,7 @@ enum { N_COLUMNS = sizeof COLUMNS / sizeof *COLUMNS };
 
 static bool has(const glint_scenario *s, column_need need)
 {
-    if (need == NEED_TEME) return s->orbit_source == ORBIT_TLE;
+    if (need == NEED_TEME) return orbit_wanted_frames(s->orbit.propagator) & FRAMES_TEME;
     return need == NEED_ATTITUDE ? s->has_attitude : true;
 }
 
@@ -248,7 +248,7 @@ static glint_status fill_attitude(const glint_ephemeris *e, ephemeris_worker *wo
         status =
             satellite_turn(e->s, m, body_gcrs, worker->component_gcrs, worker->hinge_rad, error);
     else
-        status = attitude_at(&e->s->attitude, m, body_gcrs, error);
+        status = attitude_plan_at(&e->s->attitude, m, body_gcrs, error);
     if (status) return status;
     mat_transpose(body_gcrs, gcrs_body);
     quat_from_mat(gcrs_body, row->quaternion_wxyz);

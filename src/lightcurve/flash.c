@@ -4,8 +4,9 @@
  * mirrors the Sun. A flash lasts while it is within a limit. The search goes in steps over which no
  * part turns by more than a few degrees, and the angle cannot fall from where it is to the limit,
  * by the rates at which the parts turn and the directions move at that moment (twice these, since
- * they may grow within the step). Where an angle is smaller than at both neighbours its minimum is
- * sought. Where it passes the limit, there or between two steps, the crossing is found as a root.
+ * they may grow within the step), or until they may jump: at the ends of slews, at the rows of
+ * tables. Where an angle is smaller than at both neighbours its minimum is sought. Where it passes
+ * the limit, there or between two steps, the crossing is found as a root.
  */
 #include "base/constants.h"
 #include "base/vec.h"
@@ -153,6 +154,9 @@ static glint_status look_at(const flash_search *f, double (*before)[9], double t
     }
     out->t_s = t_s;
     out->step_s = fmin(fmin(nearest, MOST_TURN) / fmax(rate, 1e-12), LONGEST_S);
+    /* Rates hold until something begins or ends; then they are taken anew. */
+    const double change_s = satellite_next_change(f->w->s, b.moment.t_s) - b.moment.t_s;
+    out->step_s = fmin(out->step_s, change_s + RATE_OVER_S);
     return GLINT_OK;
 }
 

@@ -53,23 +53,6 @@ typedef struct track {
     double way[TILE];
 } track;
 
-/* The nodes before and after, and the lanes between, of one facet. A facet that is turned away at a
- * node has no fraction there: that of the other node holds, or else it is taken as whole: it is so
- * nearly edge-on then that it hardly shines. */
-static void interpolate_facet(const track *t, int first, int last, bool first_counts,
-                              bool last_counts, double *visible)
-{
-    const double from = visible[t->lanes[first]], to = visible[t->lanes[last]];
-    const double way = t->way[last] - t->way[first];
-    for (int k = first + 1; k < last; k++) {
-        const double weight = way > 0 ? (t->way[k] - t->way[first]) / way : 0;
-        visible[t->lanes[k]] = first_counts && last_counts ? from + weight * (to - from)
-                               : first_counts              ? from
-                               : last_counts               ? to
-                                                           : 1;
-    }
-}
-
 static bool is_turned_to_both(const brdf_facets *facets, int k, const brdf_light *light, int lane)
 {
     double ci = 0, cr = 0;
@@ -80,16 +63,31 @@ static bool is_turned_to_both(const brdf_facets *facets, int k, const brdf_light
     return ci > BRDF_EDGE && cr > BRDF_EDGE;
 }
 
+/* The lanes of one facet between two nodes. A facet that is turned away at a node has no fraction
+ * there: that of the other node holds, or else it is taken as whole: it is so nearly edge-on then
+ * that it hardly shines. */
+static void interpolate_facet(const track *t, int first, int last, const brdf_facets *facets, int k,
+                              const brdf_light *light, double *visible)
+{
+    const double from = visible[t->lanes[first]], to = visible[t->lanes[last]];
+    const double way = t->way[last] - t->way[first];
+    const bool from_counts = is_turned_to_both(facets, k, light, t->lanes[first]);
+    const bool to_counts = is_turned_to_both(facets, k, light, t->lanes[last]);
+    for (int j = first + 1; j < last; j++) {
+        const double weight = way > 0 ? (t->way[j] - t->way[first]) / way : 0;
+        double fraction = from_counts ? from : to_counts ? to : 1;
+        if (from_counts && to_counts) fraction = from + weight * (to - from);
+        visible[t->lanes[j]] = is_turned_to_both(facets, k, light, t->lanes[j]) ? fraction : 0;
+    }
+}
+
 static void interpolate(const model *m, tile_worker *w, const track *t, int first, int last)
 {
     if (last - first < 2) return;
     for (int s = 0; s < m->n_spans; s++) {
         const model_span *span = &m->spans[s];
-        const brdf_light *light = &w->lights[span->component];
         for (int k = 0; k < span->n; k++)
-            interpolate_facet(t, first, last,
-                              is_turned_to_both(&span->facets, k, light, t->lanes[first]),
-                              is_turned_to_both(&span->facets, k, light, t->lanes[last]),
+            interpolate_facet(t, first, last, &span->facets, k, &w->lights[span->component],
                               w->visible + (size_t)(span->first + k) * TILE);
     }
 }

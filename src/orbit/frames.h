@@ -44,6 +44,10 @@ enum { FRAMES_TEME = 1u, FRAMES_SUN = 2u }; /* what is wanted besides itrs_gcrs 
  * 2050: directions to 2e-6 arcsec, the Sun's place to 10 m, velocities to 1e-3 m/s. */
 void frame_grid_at(const frame_grid *grid, double t_s, unsigned wanted, frame_set *out);
 
+/* The mean equator and equinox of J2000.0 (EME2000, "J2000") against the axes of GCRS, 23 mas
+ * apart: v_eme2000 = R v_gcrs. IAU 2006 frame bias (eraBp06). */
+void frame_bias(double eme2000_gcrs[9]);
+
 /* Direction and distance of the Sun from a point r_gcrs_m: unit vector and m. With aberration:
  * light time over the distance and stellar aberration by the Earth's barycentric velocity; without:
  * geometric. frames: must have been asked for FRAMES_SUN. distance_m: geometric in both cases. */

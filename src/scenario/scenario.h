@@ -6,7 +6,7 @@
 #include "base/csv.h"
 #include "facets/model.h"
 #include "facets/visibility.h"
-#include "orbit/attitude.h"
+#include "orbit/attitude_plan.h"
 #include "orbit/earth.h"
 #include "orbit/hinge.h"
 #include "orbit/orbit.h"
@@ -46,11 +46,24 @@ typedef struct satellite {
 } satellite;
 
 typedef enum orbit_source {
-    ORBIT_TLE,
+    ORBIT_TLE,       /* element sets, from two lines or OMM */
+    ORBIT_POSITIONS, /* a table of positions */
     ORBIT_KEPLER,
     ORBIT_CIRCULAR,
     ORBIT_GEOSTATIONARY
 } orbit_source;
+
+/* An orbit: how the scenario says it, and what propagates it. */
+typedef struct scenario_orbit {
+    orbit_source source;
+    tle_list sets;          /* TLE; owned */
+    const char *file;       /* of element sets or positions, as written; borrowed; NULL without */
+    kepler_elements kepler; /* KEPLER and CIRCULAR */
+    double epoch_s;         /* of these: TT s from the start */
+    bool j2;
+    double geostationary_longitude; /* rad */
+    orbit *propagator;              /* owned */
+} scenario_orbit;
 
 /* In the order of the words in read_scenario.c. */
 typedef enum self_shadows {
@@ -59,6 +72,13 @@ typedef enum self_shadows {
     SHADOWS_INTERPOLATED,
     SHADOWS_RAYS
 } self_shadows;
+
+/* What the Sun is to the facets; to the Earth's shadow it is a disc in any case. */
+typedef enum solar_disc_choice {
+    SOLAR_UNIFORM,
+    SOLAR_LIMB_DARKENED,
+    SOLAR_POINT
+} solar_disc_choice;
 
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
@@ -131,16 +151,10 @@ struct glint_scenario {
     earth_site site;
     double min_elevation; /* rad */
 
-    orbit_source orbit_source;
-    tle tle;
-    kepler_elements kepler; /* KEPLER and CIRCULAR */
-    double orbit_epoch_s;   /* TT s from the start */
-    bool j2;
-    double geostationary_longitude;
-    orbit *orbit; /* owned */
+    scenario_orbit orbit;
 
     bool has_attitude, has_satellite; /* false only where they may be absent, and are */
-    attitude attitude;
+    attitude_plan attitude;
     bool needs_moon; /* attitude or a hinge asks for the Moon */
     satellite satellite;
     self_shadows self_shadows;
@@ -151,6 +165,7 @@ struct glint_scenario {
     const band_info *bands[SCENARIO_MAX_BANDS];
     magnitude_system systems[SCENARIO_MAX_BANDS];
     double sun_magnitude[SCENARIO_MAX_BANDS];
+    solar_disc_choice solar_disc;
     bool has_extinction;
     double extinction[SCENARIO_MAX_BANDS]; /* mag per airmass; 0 without */
 
