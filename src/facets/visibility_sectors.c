@@ -18,7 +18,7 @@ enum { VISITS_BEFORE_LISTS = 4 };
 enum { LONG = 10, MANY_FOUND = 400 };
 
 /* Memory for all lists of one thread, bytes; when it is full, no more are made. */
-static const size_t MOST_BYTES = (size_t)256 << 20;
+static const size_t MOST_BYTES = (size_t)64 << 20;
 
 /* Margin of angles and cosines, rad: far above their rounding errors. */
 #define ANGLE_MARGIN 1e-9
