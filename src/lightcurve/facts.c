@@ -276,6 +276,29 @@ void facts_of_orbit(const glint_scenario *s, fact_list *out)
     add_time(s, out);
 }
 
+/* What interpolated shadows are off by, of the mean flux, for each rad of shadow_step: as measured
+ * on several bodies (docs/physics.md, Shadows between parts). */
+static const double INTERPOLATION_RMS_PER_RAD = 0.017;
+
+static void add_shadows(const glint_scenario *s, fact_list *out)
+{
+    static const char *const AREA =
+        "facets shine with the area that is both lit by the Sun and seen by the observer";
+    if (s->self_shadows == SHADOWS_NONE)
+        add(out, "self_shadows", "none: shadows that parts cast on each other are neglected");
+    else if (s->self_shadows == SHADOWS_INTERPOLATED)
+        add(out, "self_shadows",
+            "interpolated: %s; exact every %g deg of motion, and interpolated between: off by "
+            "about %.2g of the mean flux, rms",
+            AREA, s->shadow_step / DEG, INTERPOLATION_RMS_PER_RAD * s->shadow_step);
+    else if (s->self_shadows == SHADOWS_RAYS)
+        add(out, "self_shadows",
+            "rays: %s, by %d points of each facet: its fraction is off by up to %.2g, rms", AREA,
+            s->rays_per_facet, 0.5 * pow(s->rays_per_facet, -0.7));
+    else
+        add(out, "self_shadows", "exact: %s", AREA);
+}
+
 void facts_of_run(const glint_scenario *s, fact_list *out)
 {
     add_origin(s, out);
@@ -285,11 +308,7 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
     else
         add_time(s, out);
     add_measured(s, out);
-    add(out, "self_shadows",
-        s->self_shadows == SHADOWS_NONE
-            ? "none: shadows that parts cast on each other are neglected"
-            : "exact: facets shine with the area that is both lit by the Sun and seen by the "
-              "observer");
+    add_shadows(s, out);
     add_flicker(s, out);
     static const char *const DISCS[] = {
         [SOLAR_UNIFORM] =

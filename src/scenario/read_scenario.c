@@ -186,23 +186,47 @@ static void read_observer(reading *rd, reader *root)
 
 /* ---------------------------------------------------------- [satellite] */
 
-static void read_satellite(reading *rd, reader *root)
+/* How shadows between parts are found; the keys that go with one way are refused with another. */
+static void read_shadows(glint_scenario *s, reader *r)
 {
     static const char *const SHADOWS[] = {"exact", "none", "interpolated", "rays"};
+    static const param_info STEP = {
+        "shadow_step_deg", "deg", "motion between exact shadows", 0.001, 10, 1, 0};
+    int shadows;
+    int64_t rays;
+    double step_deg;
+    reader_choice(r, "self_shadows", SHADOWS, 4, SHADOWS_EXACT, &shadows);
+    const bool has_step = reader_param(r, &STEP, &step_deg);
+    const bool has_rays = reader_integer(r, "rays_per_facet", false, 1, VISIBILITY_MOST_RAYS,
+                                         DEFAULT_RAYS_PER_FACET, &rays);
+    s->self_shadows = (self_shadows)shadows;
+    s->shadow_step = step_deg * DEG;
+    s->rays_per_facet = (int)rays;
+    if (has_step && shadows != SHADOWS_INTERPOLATED)
+        reader_fail(r, reader_place(r, STEP.name),
+                    "shadow_step_deg goes with self_shadows = \"interpolated\" only; expected "
+                    "that, or no shadow_step_deg");
+    if (has_rays && shadows != SHADOWS_RAYS)
+        reader_fail(r, reader_place(r, "rays_per_facet"),
+                    "rays_per_facet goes with self_shadows = \"rays\" only; expected that, or no "
+                    "rays_per_facet");
+    if (shadows == SHADOWS_RAYS && !visibility_has_rays())
+        reader_fail(r, reader_place(r, "self_shadows"),
+                    "self_shadows = \"rays\" takes Embree 3, without which this glint was built; "
+                    "expected \"exact\", \"interpolated\" or \"none\", or a glint built with "
+                    "libembree-dev");
+}
+
+static void read_satellite(reading *rd, reader *root)
+{
     const toml_node *table = reader_table(root, "satellite", false);
     const bool tables_here = reader_has(root, "component") || reader_has(root, "materials") ||
                              reader_has(root, "materials_from");
     const toml_node *named = NULL;
     if (table) {
         reader r = reader_start(table, "[satellite]", rd->errors);
-        int shadows;
         named = reader_get(&r, "model", TOML_STRING, false, "the path of a model file");
-        reader_choice(&r, "self_shadows", SHADOWS, 4, 0, &shadows);
-        if (shadows > SHADOWS_NONE)
-            reader_fail(&r, reader_place(&r, "self_shadows"),
-                        "self_shadows = \"%s\" is not built yet; expected \"exact\" or \"none\"",
-                        SHADOWS[shadows]);
-        rd->s->self_shadows = shadows == SHADOWS_NONE ? SHADOWS_NONE : SHADOWS_EXACT;
+        read_shadows(rd->s, &r);
         if (named && tables_here)
             reader_fail(&r, named->where,
                         "both a model file and a model's tables in this file are given; expected "

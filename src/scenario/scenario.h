@@ -5,6 +5,7 @@
 #include "base/band.h"
 #include "base/csv.h"
 #include "facets/model.h"
+#include "facets/visibility.h"
 #include "orbit/attitude_plan.h"
 #include "orbit/earth.h"
 #include "orbit/hinge.h"
@@ -67,7 +68,13 @@ typedef struct scenario_orbit {
     orbit *propagator;              /* owned */
 } scenario_orbit;
 
-typedef enum self_shadows { SHADOWS_EXACT, SHADOWS_NONE } self_shadows;
+/* In the order of the words in read_scenario.c. */
+typedef enum self_shadows {
+    SHADOWS_EXACT,
+    SHADOWS_NONE,
+    SHADOWS_INTERPOLATED,
+    SHADOWS_RAYS
+} self_shadows;
 
 /* What the Sun is to the facets; to the Earth's shadow it is a disc in any case. */
 typedef enum solar_disc_choice {
@@ -79,6 +86,8 @@ typedef enum solar_disc_choice {
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
 enum { SHARES_MATERIAL = 1u, SHARES_COMPONENT = 2u };
+
+enum { DEFAULT_RAYS_PER_FACET = 64 };
 
 /* A geometry that is given, not computed: directions in the body frame. */
 typedef struct geometry_table {
@@ -152,6 +161,8 @@ struct glint_scenario {
     bool needs_moon; /* attitude or a hinge asks for the Moon */
     satellite satellite;
     self_shadows self_shadows;
+    double shadow_step; /* rad; of SHADOWS_INTERPOLATED */
+    int rays_per_facet; /* of SHADOWS_RAYS */
 
     int n_bands;
     const band_info *bands[SCENARIO_MAX_BANDS];
