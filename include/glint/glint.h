@@ -208,7 +208,8 @@ typedef enum glint_event_kind {
     GLINT_DARKNESS_BEGIN, /* the Sun sets below sun_elevation_max_deg at the site */
     GLINT_DARKNESS_END,
     GLINT_BRIGHTEST, /* smallest magnitude in the first band */
-    GLINT_FLASH      /* a flat surface mirrors the Sun towards the observer, as nearly as it will */
+    GLINT_FLASH,     /* a flat surface mirrors the Sun towards the observer, as nearly as it will */
+    GLINT_MORE_FLASHES /* from here on flashes are left out: see more_flashes */
 } glint_event_kind;
 
 /* One event, as seen from the site. Angles in rad, lengths in m. */
@@ -235,16 +236,21 @@ typedef struct glint_pass {
     double from_s, to_s;         /* rise and set, or where the time span cuts the pass off */
     bool up_at_start, up_at_end; /* it is cut off: there is no rise, no set */
     bool has_magnitudes;         /* attitude and satellite are known: brightness was looked for */
-    bool more_flashes;           /* there are more than were kept: the first 1000 */
+    bool more_flashes;           /* flashes are left out, from the time of an event of their own on:
+                                  * there are more than 1000, or they take too long to find */
     double sunlit_s;             /* time with some sunlight on the satellite */
     double dark_site_s;          /* of that, while the site is dark */
     const glint_pass_event *events; /* in order of time */
     size_t n_events;
 } glint_pass;
 
+/* Limits of the largest mirror angle of a flash, deg. */
+#define GLINT_FLASH_ANGLE_MIN_DEG 1e-3
+#define GLINT_FLASH_ANGLE_MAX_DEG 90.0
+
 /* What is looked for; zero-initialise for what is usual. */
 typedef struct glint_pass_options {
-    double flash_angle_rad; /* largest mirror angle of a flash; 0: 1 deg */
+    double flash_angle_rad; /* largest mirror angle of a flash, within these limits; 0: 1 deg */
     int threads;            /* 0: all processors */
 } glint_pass_options;
 

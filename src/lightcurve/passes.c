@@ -311,18 +311,27 @@ static glint_status add_light(const pass_search *p, light_meter *meter, const ro
 {
     enum { MOST_FLASHES = 1000 };
     const size_t first = events->n;
+    double until_s = 0;
     brightest best = {0, HUGE_VAL};
     glint_status status = measure_events(meter, events, 0, NULL, error);
     for (size_t k = 0; k + 1 < sunlit->n && !status; k += 2) {
         const double from_s = sunlit->items[k], to_s = sunlit->items[k + 1];
         if (!(to_s > from_s)) continue;
         status = brightest_in_span(meter, from_s, to_s, &best, error);
-        if (!status)
-            status = flashes_find(meter->w, &p->mirrors, meter->worker.geometry.component_gcrs,
-                                  from_s, to_s, p->flash_angle, first + MOST_FLASHES, events,
-                                  &pass->more_flashes, error);
+        if (status || pass->more_flashes) continue;
+        const flash_request wanted = {.mirrors = &p->mirrors,
+                                      .component_gcrs = meter->worker.geometry.component_gcrs,
+                                      .from_s = from_s,
+                                      .to_s = to_s,
+                                      .limit = p->flash_angle,
+                                      .first = first,
+                                      .most = MOST_FLASHES};
+        status = flashes_find(meter->w, &wanted, events, &until_s, error);
+        pass->more_flashes = until_s < to_s;
     }
     if (!status) status = measure_events(meter, events, first, &best, error);
+    if (!status && pass->more_flashes)
+        status = event_list_add(events, meter->w, GLINT_MORE_FLASHES, until_s, error);
     if (status || !(best.magnitude < HUGE_VAL)) return status;
     const size_t at = events->n;
     status = event_list_add(events, meter->w, GLINT_BRIGHTEST, best.t_s, error);
@@ -426,10 +435,13 @@ static glint_status check_call(const glint_scenario *s, const glint_pass_options
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
                          "%d threads asked for; expected 1 to %d, or 0 for all processors",
                          o->threads, MOST_THREADS);
-    if (!(o->flash_angle_rad >= 0 && o->flash_angle_rad <= 0.5 * PI))
+    const double angle_deg = o->flash_angle_rad / DEG, rounding = 1e-12;
+    if (angle_deg != 0 && !(angle_deg >= GLINT_FLASH_ANGLE_MIN_DEG * (1 - rounding) &&
+                            angle_deg <= GLINT_FLASH_ANGLE_MAX_DEG * (1 + rounding)))
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
-                         "the largest mirror angle of a flash is %g deg; expected 0 to 90",
-                         o->flash_angle_rad / DEG);
+                         "the largest mirror angle of a flash is %g deg; expected %g to %g, or 0 "
+                         "for the usual 1 deg",
+                         angle_deg, GLINT_FLASH_ANGLE_MIN_DEG, GLINT_FLASH_ANGLE_MAX_DEG);
     return GLINT_OK;
 }
 
@@ -440,7 +452,8 @@ static glint_status find_all(pass_search *p, int threads, glint_passes *out, gli
     glint_status status = pass_spans_find(&w, &spans, error);
     watch_free(&w);
     if (!status && p->has_light) status = tile_plan_shadows(p->s, &p->plan, error);
-    if (!status && p->has_light) status = mirrors_of(&p->s->satellite, &p->mirrors, error);
+    if (!status && p->has_light)
+        status = mirrors_of(&p->s->satellite, &p->s->attitude, &p->mirrors, error);
     if (!status) {
         out->items = calloc(spans.n + 1, sizeof *out->items);
         out->n = out->items ? spans.n : 0;
@@ -535,6 +548,7 @@ const char *glint_event_name(glint_event_kind kind)
         [GLINT_DARKNESS_END] = "darkness-end",
         [GLINT_BRIGHTEST] = "brightest",
         [GLINT_FLASH] = "flash",
+        [GLINT_MORE_FLASHES] = "more-flashes",
     };
     return (size_t)kind < sizeof NAMES / sizeof *NAMES ? NAMES[kind] : NULL;
 }

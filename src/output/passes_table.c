@@ -117,6 +117,7 @@ static void add_note(text *t, const glint_passes *of, const glint_pass_event *e)
         [GLINT_DARKNESS_BEGIN] = "the site is dark",
         [GLINT_DARKNESS_END] = "the site is light",
         [GLINT_FLASH] = "flash",
+        [GLINT_MORE_FLASHES] = "from here on flashes are left out: there are too many",
     };
     if ((size_t)e->kind >= sizeof WORDS / sizeof *WORDS || !WORDS[e->kind]) return;
     text_printf(t, "%12s", "");
@@ -151,7 +152,6 @@ static void write_people(const listed_pass *list, size_t n, text *t)
         add_line(t, &list[k]);
         for (size_t i = 0; i < p->n_events; i++)
             add_note(t, list[k].of, &p->events[i]);
-        if (p->more_flashes) text_printf(t, "%12smore flashes are left out\n", "");
     }
 }
 
