@@ -69,6 +69,10 @@ add_test(NAME program COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_cli.sh $<TARGET_F
 add_test(NAME passes_program COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_passes.sh
     $<TARGET_FILE:glint_program> ${PROJECT_SOURCE_DIR}/scenarios)
 
+# The example of every command's --help.
+add_test(NAME examples COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_examples.sh
+    $<TARGET_FILE:glint_program> ${PROJECT_SOURCE_DIR}/scenarios)
+
 # README.md and docs/: commands, scenarios, keys. The program of docs/api.md is taken out of the page
 # and compiled.
 glint_test(docs_tables)
