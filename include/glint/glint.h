@@ -168,7 +168,8 @@ size_t glint_curve_text(const glint_curve *curve, const glint_row *row, size_t c
 
 /* ------------------------------------------------------------------- table */
 
-/* What a run came to; times in s of the rows that are in the table. */
+/* What a run came to, of the rows that are in the table. Times in s: each row stands for half a
+ * step before it and half a step after it, within the run. */
 typedef struct glint_summary {
     int64_t rows;                                          /* in the table */
     int64_t bright_rows;                                   /* with a magnitude in the first band */

@@ -101,14 +101,14 @@ glint_status kepler_start(const kepler_elements *elements, double mu_m3_s2, doub
     const double n = sqrt(mu_m3_s2 / a) / a, c = cos(elements->inclination);
     const double radius_over_p = radius_m / (a * axes * axes);
     const double k = 0.75 * n * j2 * radius_over_p * radius_over_p;
+    const double mean_motion = n + k * axes * (3.0 * c * c - 1.0);
     *out = (kepler_orbit){
         .at_epoch = *elements,
-        .mu_m3_s2 = mu_m3_s2,
-        .mean_motion = n + k * axes * (3.0 * c * c - 1.0),
+        .mean_motion = mean_motion,
+        .speed_m_s = mean_motion * a,
         .raan_rate = -2.0 * k * c,
         .argument_rate = k * (5.0 * c * c - 1.0),
         .semi_minor_axis_m = a * axes,
-        .speed_radius_m2_s = sqrt(mu_m3_s2 * a),
         .sin_inclination = sin(elements->inclination),
         .cos_inclination = c,
     };
@@ -121,7 +121,7 @@ void kepler_state(const kepler_orbit *orbit, double dt_s, double r_m[3], double 
     const double a = k->semi_major_axis_m, b = orbit->semi_minor_axis_m, e = k->eccentricity;
     const double anomaly = kepler_eccentric_anomaly(k->mean_anomaly + orbit->mean_motion * dt_s, e);
     const double sin_e = sin(anomaly), cos_e = cos(anomaly);
-    const double rate = orbit->speed_radius_m2_s / (a * (1.0 - e * cos_e)); /* a dE/dt, m/s */
+    const double rate = orbit->speed_m_s / (1.0 - e * cos_e); /* a dE/dt, m/s */
     const double x = a * (cos_e - e), y = b * sin_e;
     const double vx = -rate * sin_e, vy = rate * (b / a) * cos_e;
 
@@ -138,4 +138,10 @@ void kepler_state(const kepler_orbit *orbit, double dt_s, double r_m[3], double 
         r_m[i] = x * p[i] + y * q[i];
         v_m_s[i] = vx * p[i] + vy * q[i];
     }
+    /* The ellipse itself turns: in its plane about the normal p x q, and about z with its node. */
+    const double turn = orbit->argument_rate, drift = orbit->raan_rate;
+    for (int i = 0; i < 3; i++)
+        v_m_s[i] += turn * (x * q[i] - y * p[i]);
+    v_m_s[0] -= drift * r_m[1];
+    v_m_s[1] += drift * r_m[0];
 }

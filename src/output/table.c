@@ -132,8 +132,9 @@ static glint_status sinks_open(const glint_curve *curve, const char *path, const
     if (path && glint_curve_reads(curve, path))
         return error_set(error, GLINT_OUTPUT, (place){path, 0, 0},
                          "the scenario is read from this file; expected another one to write to");
-    out->summary =
-        summary_start(glint_curve_step_s(curve), n > 0 && string_equal(columns[0].name, "utc"));
+    const double step_s = glint_curve_step_s(curve);
+    out->summary = summary_start(step_s, step_s * (double)(glint_curve_length(curve) - 1),
+                                 n > 0 && string_equal(columns[0].name, "utc"));
     if (!out->summary) return error_no_memory(error);
     if (picture) {
         const glint_status status = plot_open(picture, &out->plot, error);
