@@ -26,6 +26,18 @@ static const char GEO_ORBIT[] =
     "[orbit]\ntle_lines = [\n"
     "\"1 41866U 16071A   24001.50000000 -.00000100  00000-0  00000+0 0  9993\",\n"
     "\"2 41866   0.0300  90.0000 0001000 100.0000 262.0000  1.00271000 26000\"]\n";
+static const char MOLNIYA_ORBIT[] =
+    "[orbit]\ntle_lines = [\n"
+    "\"1 99901U 24001A   24001.50000000  .00000010  00000-0  00000+0 0  9997\",\n"
+    "\"2 99901  63.4000 120.0000 7400000 270.0000  10.0000  2.00600000    16\"]\n";
+static const char GNSS_ORBIT[] =
+    "[orbit]\ntle_lines = [\n"
+    "\"1 90005U 24001A   24001.50000000  .00000000  00000-0  00000+0 0  9992\",\n"
+    "\"2 90005  55.0000 200.0000 0100000  30.0000 330.0000  2.00562000    14\"]\n";
+static const char RETROGRADE_ORBIT[] =
+    "[orbit]\ntle_lines = [\n"
+    "\"1 90002U 24001A   24001.50000000  .00000000  00000-0  10000-4 0  9995\",\n"
+    "\"2 90002  98.2000  15.0000 0010000  90.0000 270.0000 14.57000000    15\"]\n";
 static const char PLAIN[] = "[corrections]\nlight_time = false\n";
 
 static glint_scenario *read_orbit_only(const char *time, const char *observer,
@@ -164,6 +176,46 @@ START_TEST(test_passes_of_a_geostationary_satellite_are_all_or_nothing)
 }
 END_TEST
 
+/* At the poles every direction is south, or north: azimuths count from the meridian of the given
+ * longitude. A year of a satellite that passes over them at each turn, of one that never comes up,
+ * and of one that stays high for hours. */
+START_TEST(test_passes_over_the_poles)
+{
+    static const struct {
+        double latitude_deg;
+        const char *orbit;
+        size_t least, most;
+    } CASES[] = {{90, RETROGRADE_ORBIT, 5300, 5340}, /* 14.57 turns a day, 365 days */
+                 {-90, RETROGRADE_ORBIT, 5300, 5340},
+                 {90, "[orbit]\ncircular = { geostationary_longitude_deg = 19.2 }\n", 0, 0},
+                 {90,
+                  "[orbit]\nkepler = { semi_major_axis_km = 26560, eccentricity = 0.74, "
+                  "inclination_deg = 63.4, raan_deg = 120, argument_of_perigee_deg = 270, "
+                  "mean_anomaly_deg = 180, j2 = false }\n",
+                  730, 735}, /* 2.006 turns a day, 366 less 1 */
+                 {-90,
+                  "[orbit]\nkepler = { semi_major_axis_km = 26560, eccentricity = 0.74, "
+                  "inclination_deg = 63.4, raan_deg = 120, argument_of_perigee_deg = 270, "
+                  "mean_anomaly_deg = 180, j2 = false }\n",
+                  0, 735}};
+    static const char YEAR[] = "[time]\nstart = 2024-01-01T12:00:00Z\nduration_s = 31536000\n"
+                               "step_s = 3600\n";
+    for (size_t k = 0; k < COUNT_OF(CASES); k++) {
+        char observer[128];
+        snprintf(observer, sizeof observer,
+                 "[observer]\nlatitude_deg = %g\nlongitude_deg = 0\nmin_elevation_deg = 5\n",
+                 CASES[k].latitude_deg);
+        glint_scenario *s = read_orbit_only(YEAR, observer, CASES[k].orbit, "");
+        glint_passes *passes = find(s, 0, 2);
+        const size_t n = glint_passes_count(passes);
+        ck_assert_msg(n >= CASES[k].least && n <= CASES[k].most, "case %zu: %zu passes", k, n);
+        check_order(passes, 31536000);
+        glint_passes_free(passes);
+        glint_scenario_free(s);
+    }
+}
+END_TEST
+
 /* A limit of elevation just below the highest point of a pass leaves a pass of some seconds; just
  * above it, none. */
 START_TEST(test_passes_find_grazing_ones)
@@ -205,7 +257,11 @@ END_TEST
 START_TEST(test_passes_agree_with_rows)
 {
     static const char *const ORBITS[] = {
-        ISS_ORBIT, GEO_ORBIT,
+        ISS_ORBIT,
+        GEO_ORBIT,
+        MOLNIYA_ORBIT,
+        GNSS_ORBIT,
+        RETROGRADE_ORBIT,
         "[orbit]\nkepler = { semi_major_axis_km = 26560, eccentricity = 0.74, inclination_deg = "
         "63.4, raan_deg = 120, argument_of_perigee_deg = 270, mean_anomaly_deg = 10 }\n",
         "[orbit]\nkepler = { semi_major_axis_km = 12000, eccentricity = 0.45, inclination_deg = "
@@ -635,6 +691,7 @@ int main(void)
     tcase_set_timeout(tc, 120);
     tcase_add_test(tc, test_passes_agree_with_another_program);
     tcase_add_test(tc, test_passes_of_a_geostationary_satellite_are_all_or_nothing);
+    tcase_add_test(tc, test_passes_over_the_poles);
     tcase_add_test(tc, test_passes_find_grazing_ones);
     tcase_add_test(tc, test_passes_agree_with_rows);
     tcase_add_test(tc, test_passes_meet_the_shadow_of_the_reference);

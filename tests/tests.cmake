@@ -97,7 +97,12 @@ find_program(GLINT_PYTHON python3)
 if(GLINT_PYTHON)
     add_test(NAME ecsv COMMAND ${GLINT_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test_ecsv.py
         $<TARGET_FILE:glint_program> ${CMAKE_CURRENT_SOURCE_DIR}/data)
+    # Ephemerides and passes against sgp4, Skyfield and ERFA for Python.
+    add_test(NAME astronomy COMMAND ${GLINT_PYTHON}
+        ${CMAKE_CURRENT_SOURCE_DIR}/test_astronomy.py $<TARGET_FILE:glint_program>)
 else()
     add_test(NAME ecsv COMMAND sh -c "echo 'SKIPPED: tables read by astropy: no python3'; exit 77")
+    add_test(NAME astronomy COMMAND sh -c
+        "echo 'SKIPPED: ephemerides against other programs: no python3'; exit 77")
 endif()
-set_tests_properties(ecsv PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(ecsv astronomy PROPERTIES SKIP_RETURN_CODE 77)

@@ -208,6 +208,14 @@ void utc_to_jd(const utc_time *utc, double utc_jd[2])
              &utc_jd[0], &utc_jd[1]);
 }
 
+double utc_day_length_s(double jd)
+{
+    int year, month, day;
+    double fraction;
+    eraJd2cal(jd, 0.0, &year, &month, &day, &fraction);
+    return DAY_S + (has_leap_second(year, month, day) ? 1.0 : 0.0);
+}
+
 void utc_to_tt(const utc_time *utc, double tt_jd[2], double *tai_minus_utc_s, bool *dubious)
 {
     double utc_jd[2];

@@ -24,6 +24,8 @@ glint_status utc_check(const utc_time *utc, place where, glint_error *error);
 /* UTC as ERFA's two-part quasi-JD (0h of the day, fraction of the day's true length). Pass only
  * checked times. */
 void utc_to_jd(const utc_time *utc, double utc_jd[2]);
+/* Length of the UTC day that begins at a JD, s: 86 400, or 86 401 where a leap second ends it. */
+double utc_day_length_s(double jd);
 /* UTC to TT as two-part JD, with TAI-UTC in s; inside a leap second that is still the value of the
  * day that the leap second ends. Pass only checked times. tai_minus_utc_s, dubious: NULL allowed;
  * dubious: true when leap seconds are not known for that year. */
