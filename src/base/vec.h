@@ -56,6 +56,12 @@ static inline void add_scaled3(const double a[3], double s, const double b[3], d
 /* Unit vector of a, safe from overflow and underflow; returns |a| (0 leaves out = 0). */
 static inline double unit3(const double a[3], double out[3])
 {
+    const double square = dot3(a, a);
+    if (square > 1e-280 && square < 1e280) { /* nothing can overflow, and no digits are lost */
+        const double length = sqrt(square);
+        scale3(a, 1.0 / length, out);
+        return length;
+    }
     const double m = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
     if (!(m > 0.0)) {
         out[0] = out[1] = out[2] = 0.0;

@@ -1,6 +1,7 @@
 #include "orbit/frames.h"
 
 #include "base/constants.h"
+#include "base/fasttrig.h"
 #include "base/vec.h"
 
 #include <erfa.h>
@@ -157,8 +158,9 @@ static void cip_interpolate(const node_table *table, double days, double xys[CIP
     const double position = days / CIP_STEP_DAYS, base = floor(position), u = position - base;
     const double *node = table_nodes(table, (int64_t)base - 1, CIP_NODES, room);
     const double a = u + 1.0, b = u - 1.0, c = u - 2.0;
-    const double w[CIP_NODES] = {-u * b * c / 6.0, a * b * c / 2.0, -a * u * c / 2.0,
-                                 a * u * b / 6.0};
+    const double sixth = 1.0 / 6.0;
+    const double w[CIP_NODES] = {-sixth * u * b * c, 0.5 * a * b * c, -0.5 * a * u * c,
+                                 sixth * a * u * b};
     for (int i = 0; i < CIP_WIDTH; i++)
         xys[i] = w[0] * node[i] + w[1] * node[3 + i] + w[2] * node[6 + i] + w[3] * node[9 + i];
 }
@@ -173,7 +175,7 @@ static void sun_interpolate(const node_table *table, double days, double state[S
                  *next = node + SUN_WIDTH;
     const double h_s = SUN_STEP_DAYS * DAY_S, v = 1.0 - u;
     const double step = u * u * (3.0 - 2.0 * u), start = u * v * v * h_s, end = -u * u * v * h_s;
-    const double d_step = 6.0 * u * v / h_s, d_start = v * (1.0 - 3.0 * u),
+    const double d_step = 6.0 / h_s * (u * v), d_start = v * (1.0 - 3.0 * u),
                  d_end = u * (3.0 * u - 2.0);
     for (int i = 0; i < 3; i++) {
         const double change = next[i] - node[i];
@@ -196,7 +198,8 @@ static void pole_matrix(double x, double y, double out[9])
 /* out = R3(angle) m, where R3 turns the axes about the third one. */
 static void turn_about_pole(double angle, const double m[9], double out[9])
 {
-    const double c = cos(angle), s = sin(angle);
+    double s, c;
+    fast_sin_cos(angle, &s, &c);
     for (int j = 0; j < 3; j++) {
         out[j] = c * m[j] + s * m[3 + j];
         out[3 + j] = c * m[3 + j] - s * m[j];

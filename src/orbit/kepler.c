@@ -1,6 +1,7 @@
 #include "orbit/kepler.h"
 
 #include "base/constants.h"
+#include "base/fasttrig.h"
 
 #include <math.h>
 
@@ -30,7 +31,11 @@ static double minus_sine(double x, double sin_x)
  * Mikkola's cubic. */
 static double first_guess(double m, double e)
 {
-    if (e < 0.1) return m + e * sin(m) * (1.0 + e * cos(m));
+    if (e < 0.1) {
+        double s, c;
+        fast_sin_cos(m, &s, &c);
+        return m + e * s * (1.0 + e * c);
+    }
     const double scale = 1.0 / (4.0 * e + 0.5);
     const double alpha = (1.0 - e) * scale, beta = 0.5 * m * scale;
     const double z = cbrt(beta + sqrt(beta * beta + alpha * alpha * alpha));
@@ -39,16 +44,19 @@ static double first_guess(double m, double e)
     return m + e * (3.0 * better - 4.0 * better * better * better);
 }
 
-/* Solves E - e sin E = m for 0 <= m <= pi. The function rises from m to m + e, so the root stays in
- * a bracket; a correction that would leave it is replaced by a bisection. */
-static double solve(double m, double e)
+/* Solves E - e sin E = m for 0 <= m <= pi; leaves the sine and cosine of E, too. The function rises
+ * from m to m + e, so the root stays in a bracket; a correction that would leave it is replaced by
+ * a bisection. */
+static double solve(double m, double e, double *sine, double *cosine)
 {
     enum { MOST = 64 };        /* two are usual; bisection alone would end within this */
     const double close = 1e-4; /* relative; a step of fourth order then leaves rounding only */
     double low = m, high = fmin(m + e, PI);
     double x = fmin(fmax(first_guess(m, e), low), high);
     for (int k = 0; k < MOST; k++) {
-        const double s = sin(x), c = cos(x), e_s = e * s, e_c = e * c;
+        double s, c;
+        fast_sin_cos(x, &s, &c);
+        const double e_s = e * s, e_c = e * c;
         /* x - e sin x - m and its slope 1 - e cos x, without cancellation for e near 1 */
         const double minus_cosine = c > 0.0 ? s * s / (1.0 + c) : 1.0 - c;
         const double f = (1.0 - e) * x + e * minus_sine(x, s) - m;
@@ -62,17 +70,35 @@ static double solve(double m, double e)
         const double d3 = -f / (f1 + 0.5 * d2 * e_s + d2 * d2 * e_c / 6.0);
         double next = x + d3;
         if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-        const double step = fabs(next - x);
+        const double step = next - x;
         x = next;
-        if (!(step > close * x)) break;
+        if (fabs(step) > close * x) continue;
+        turn_sin_cos(step, &s, &c);
+        *sine = s;
+        *cosine = c;
+        return x;
     }
+    fast_sin_cos(x, sine, cosine);
     return x;
+}
+
+/* The eccentric anomaly with its sine and cosine. */
+static double eccentric_anomaly(double mean_anomaly, double e, double *sine, double *cosine)
+{
+    const double m = reduce_angle(mean_anomaly);
+    if (e == 0.0) { /* a circle */
+        fast_sin_cos(m, sine, cosine);
+        return m;
+    }
+    const double x = solve(fmin(fabs(m), PI), e, sine, cosine);
+    *sine = copysign(*sine, m);
+    return copysign(x, m);
 }
 
 double kepler_eccentric_anomaly(double mean_anomaly, double eccentricity)
 {
-    const double m = reduce_angle(mean_anomaly);
-    return copysign(solve(fmin(fabs(m), PI), eccentricity), m);
+    double sine, cosine;
+    return eccentric_anomaly(mean_anomaly, eccentricity, &sine, &cosine);
 }
 
 static glint_status check(const kepler_elements *k, glint_error *error)
@@ -119,8 +145,8 @@ void kepler_state(const kepler_orbit *orbit, double dt_s, double r_m[3], double 
 {
     const kepler_elements *k = &orbit->at_epoch;
     const double a = k->semi_major_axis_m, b = orbit->semi_minor_axis_m, e = k->eccentricity;
-    const double anomaly = kepler_eccentric_anomaly(k->mean_anomaly + orbit->mean_motion * dt_s, e);
-    const double sin_e = sin(anomaly), cos_e = cos(anomaly);
+    double sin_e, cos_e;
+    eccentric_anomaly(k->mean_anomaly + orbit->mean_motion * dt_s, e, &sin_e, &cos_e);
     const double rate = orbit->speed_m_s / (1.0 - e * cos_e); /* a dE/dt, m/s */
     const double x = a * (cos_e - e), y = b * sin_e;
     const double vx = -rate * sin_e, vy = rate * (b / a) * cos_e;
@@ -128,7 +154,9 @@ void kepler_state(const kepler_orbit *orbit, double dt_s, double r_m[3], double 
     /* p points to the perigee, q a quarter turn on along the motion. */
     const double node = k->raan + orbit->raan_rate * dt_s;
     const double argument = k->argument_of_perigee + orbit->argument_rate * dt_s;
-    const double sin_n = sin(node), cos_n = cos(node), sin_w = sin(argument), cos_w = cos(argument);
+    double sin_n, cos_n, sin_w, cos_w;
+    fast_sin_cos(node, &sin_n, &cos_n);
+    fast_sin_cos(argument, &sin_w, &cos_w);
     const double sin_i = orbit->sin_inclination, cos_i = orbit->cos_inclination;
     const double p[3] = {cos_n * cos_w - sin_n * sin_w * cos_i,
                          sin_n * cos_w + cos_n * sin_w * cos_i, sin_w * sin_i};
