@@ -47,7 +47,7 @@ void summary_add(summary_maker *m, const glint_row *rows, size_t n)
     for (size_t k = 0; k < n; k++) {
         const bool sunlit = rows[k].sunlit_fraction > 0;
         m->sunlit += sunlit;
-        m->visible += sunlit && !(rows[k].flags & GLINT_BELOW_HORIZON);
+        m->visible += sunlit && !(rows[k].flags & (GLINT_BELOW_HORIZON | GLINT_BLOCKED));
         if (rows[k].flux_ratio[0] > 0) add_magnitude(m, &rows[k]);
     }
 }

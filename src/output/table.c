@@ -132,6 +132,11 @@ static glint_status sinks_open(const glint_curve *curve, const char *path, const
     if (path && glint_curve_reads(curve, path))
         return error_set(error, GLINT_OUTPUT, (place){path, 0, 0},
                          "the scenario is read from this file; expected another one to write to");
+    if (picture && glint_curve_observers(curve) > 1)
+        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                         "a picture shows the curve of one observer, and there are %zu; expected a "
+                         "scenario of one, or no picture",
+                         glint_curve_observers(curve));
     out->summary =
         summary_start(glint_curve_step_s(curve), n > 0 && string_equal(columns[0].name, "utc"));
     if (!out->summary) return error_no_memory(error);
