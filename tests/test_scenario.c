@@ -113,16 +113,16 @@ START_TEST(test_scenario_observer_keys_and_defaults)
     glint_scenario *s = read_with(SOUND, PART_OBSERVER,
                                   "[observer]\nname = \"Vienna\"\nlatitude_deg = -48.25\n"
                                   "longitude_deg = 16\nheight_m = 200\nmin_elevation_deg = 10\n");
-    ck_assert_str_eq(s->site_name, "Vienna");
-    assert_rel(s->site.latitude, -48.25 * PI / 180, rounding);
-    assert_rel(s->site.longitude, 16 * PI / 180, rounding);
-    assert_near(s->site.height_m, 200, 0);
-    assert_rel(s->min_elevation, 10 * PI / 180, rounding);
+    ck_assert_str_eq(s->observers[0].name, "Vienna");
+    assert_rel(s->observers[0].site.latitude, -48.25 * PI / 180, rounding);
+    assert_rel(s->observers[0].site.longitude, 16 * PI / 180, rounding);
+    assert_near(s->observers[0].site.height_m, 200, 0);
+    assert_rel(s->observers[0].horizon.least, 10 * PI / 180, rounding);
     glint_scenario_free(s);
     s = read_with(SOUND, PART_OBSERVER, "[observer]\nlatitude_deg = 0\nlongitude_deg = -360\n");
-    ck_assert_str_eq(s->site_name, "");
-    assert_near(s->site.height_m, 0, 0);
-    assert_near(s->min_elevation, 0, 0);
+    ck_assert_str_eq(s->observers[0].name, "");
+    assert_near(s->observers[0].site.height_m, 0, 0);
+    assert_near(s->observers[0].horizon.least, 0, 0);
     glint_scenario_free(s);
 }
 END_TEST
@@ -134,15 +134,15 @@ START_TEST(test_scenario_kepler_keys_and_defaults)
                   "[orbit]\nkepler = { semi_major_axis_km = 26562, eccentricity = 0.7, "
                   "inclination_deg = 63.4, raan_deg = -20, argument_of_perigee_deg = 270, "
                   "mean_anomaly_deg = 400, epoch = 2025-07-25T20:36:30Z, j2 = false }\n");
-    ck_assert_int_eq(s->orbit_source, ORBIT_KEPLER);
-    assert_rel(s->kepler.semi_major_axis_m, 26562e3, rounding);
-    assert_near(s->kepler.eccentricity, 0.7, 0);
-    assert_rel(s->kepler.inclination, 63.4 * PI / 180, rounding);
-    assert_rel(s->kepler.raan, -20 * PI / 180, rounding);
-    assert_rel(s->kepler.argument_of_perigee, 270 * PI / 180, rounding);
-    assert_rel(s->kepler.mean_anomaly, 400 * PI / 180, rounding);
-    assert_near(s->orbit_epoch_s, -30, 1e-9); /* s: rounding of Julian dates */
-    ck_assert(!s->j2);
+    ck_assert_int_eq(s->orbit.source, ORBIT_KEPLER);
+    assert_rel(s->orbit.kepler.semi_major_axis_m, 26562e3, rounding);
+    assert_near(s->orbit.kepler.eccentricity, 0.7, 0);
+    assert_rel(s->orbit.kepler.inclination, 63.4 * PI / 180, rounding);
+    assert_rel(s->orbit.kepler.raan, -20 * PI / 180, rounding);
+    assert_rel(s->orbit.kepler.argument_of_perigee, 270 * PI / 180, rounding);
+    assert_rel(s->orbit.kepler.mean_anomaly, 400 * PI / 180, rounding);
+    assert_near(s->orbit.epoch_s, -30, 1e-9); /* s: rounding of Julian dates */
+    ck_assert(!s->orbit.j2);
     glint_scenario_free(s);
 }
 END_TEST
@@ -152,16 +152,18 @@ START_TEST(test_scenario_circular_keys_and_defaults)
     glint_scenario *s = read_with(SOUND, PART_ORBIT,
                                   "[orbit]\ncircular = { height_km = 500, inclination_deg = 97, "
                                   "raan_deg = 1, argument_of_latitude_deg = -90 }\n");
-    ck_assert_int_eq(s->orbit_source, ORBIT_CIRCULAR);
-    assert_rel(s->kepler.semi_major_axis_m, 6878.137e3, rounding); /* above the equatorial radius */
-    assert_near(s->kepler.eccentricity, 0, 0);
-    assert_rel(s->kepler.mean_anomaly + s->kepler.argument_of_perigee, -PI / 2, rounding);
-    assert_near(s->orbit_epoch_s, 0, 0); /* the start */
-    ck_assert(s->j2);
+    ck_assert_int_eq(s->orbit.source, ORBIT_CIRCULAR);
+    assert_rel(s->orbit.kepler.semi_major_axis_m, 6878.137e3,
+               rounding); /* above the equatorial radius */
+    assert_near(s->orbit.kepler.eccentricity, 0, 0);
+    assert_rel(s->orbit.kepler.mean_anomaly + s->orbit.kepler.argument_of_perigee, -PI / 2,
+               rounding);
+    assert_near(s->orbit.epoch_s, 0, 0); /* the start */
+    ck_assert(s->orbit.j2);
     glint_scenario_free(s);
     s = read_with(SOUND, PART_ORBIT, "[orbit]\ncircular = { geostationary_longitude_deg = -75 }\n");
-    ck_assert_int_eq(s->orbit_source, ORBIT_GEOSTATIONARY);
-    assert_rel(s->geostationary_longitude, -75 * PI / 180, rounding);
+    ck_assert_int_eq(s->orbit.source, ORBIT_GEOSTATIONARY);
+    assert_rel(s->orbit.geostationary_longitude, -75 * PI / 180, rounding);
     glint_scenario_free(s);
 }
 END_TEST
@@ -190,8 +192,8 @@ START_TEST(test_scenario_element_sets_by_file_name_number_or_lines)
         char content[512];
         snprintf(content, sizeof content, "[orbit]\n%s", all[k].text);
         glint_scenario *s = read_with(SOUND, PART_ORBIT, content);
-        ck_assert_int_eq(s->orbit_source, ORBIT_TLE);
-        ck_assert_int_eq(s->tle.number, all[k].number);
+        ck_assert_int_eq(s->orbit.source, ORBIT_TLE);
+        ck_assert_int_eq(s->orbit.tle.number, all[k].number);
         glint_scenario_free(s);
     }
 }
@@ -559,9 +561,9 @@ START_TEST(test_scenario_overrides_of_every_kind)
     ck_assert_int_eq(s->n_steps, 41);
     ck_assert_str_eq(s->title, "set");
     ck_assert_int_eq(s->n_bands, 2);
-    assert_rel(s->site.longitude, 2 * PI / 180, rounding);
-    assert_rel(s->kepler.raan, PI / 2, rounding);
-    assert_rel(s->kepler.inclination, 98.6 * PI / 180, rounding);
+    assert_rel(s->observers[0].site.longitude, 2 * PI / 180, rounding);
+    assert_rel(s->orbit.kepler.raan, PI / 2, rounding);
+    assert_rel(s->orbit.kepler.inclination, 98.6 * PI / 180, rounding);
     ck_assert_str_eq(s->satellite.components[0].name, "body");
     assert_near(s->satellite.materials[0].bands[0].lobes[0].params[0], 0.25, 0);
     assert_rel(model_material_area(&s->satellite.model, 0, NULL), 2 * (1 + 7 + 7), 1e-14);

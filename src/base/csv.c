@@ -195,6 +195,7 @@ glint_status csv_read(const char *path, place asked_from, csv_table *table, glin
         const size_t bom = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
         reader r = {table, errors, bytes + bom, bytes + size, 1, bytes + bom, 0, 0};
         status = read_all(&r);
+        table->unended_line = size > bom && bytes[size - 1] != '\n' ? r.line : 0;
     }
     if (status) csv_free(table);
     return status;

@@ -18,6 +18,7 @@ typedef struct csv_table {
     csv_cell *cells; /* owned; (n_rows + 1) x n_columns, the header's first */
     int n_columns;
     long n_rows;
+    int unended_line; /* number of the last line where it has no line end, and may be cut; else 0 */
 } csv_table;
 
 /* Reads a file. Errors (all of the file, GLINT_INPUT): unreadable, no header, a repeated or empty

@@ -16,7 +16,7 @@
 /* Adding it to |x| < 2^51 rounds x to an integer and leaves that integer in the low bits. */
 #define FASTTRIG_ROUND 0x1.8p52
 
-/* sin x and cos x of any x (rad), within 1 ulp but where they come near 0: there within 1e-16 of
+/* sin x and cos x of any x (rad), within 1.5 ulp but where they come near 0: there within 1e-16 of
  * 1; NaN for what is not finite.
  *
  * x = n pi/2 + r with |r| <= pi/4; sin r = r + r^3 s(r^2), cos r = 1 - r^2/2 + r^4 c(r^2). s and c

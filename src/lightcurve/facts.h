@@ -19,7 +19,10 @@ void facts_of_run(const glint_scenario *s, fact_list *out);
 /* Of these, what concerns positions only. */
 void facts_of_orbit(const glint_scenario *s, fact_list *out);
 void fact_list_free(fact_list *list);
-/* The orbit in one line: its source, epoch, ...; from malloc, NULL when memory is out. */
-char *fact_orbit(const glint_scenario *s);
+/* An orbit of the scenario in one line: its source, epoch, ...; from malloc, NULL when memory is
+ * out. */
+char *fact_orbit(const glint_scenario *s, const scenario_orbit *o);
+/* An observer in one line, likewise: its name, where it is, what it cannot see, its air. */
+char *fact_observer(const glint_scenario *s, const scenario_observer *o);
 
 #endif

@@ -3,81 +3,9 @@
 #include "base/constants.h"
 #include "base/vec.h"
 #include "orbit/eclipse.h"
-#include "orbit/moon.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* The frames tau_s earlier, to first order in what moves slowly: the Earth turns back by its
- * rotation (about ITRS z instead of the CIP, which polar motion keeps within 3e-6 rad: 3e-11 rad
- * over a second), the Sun goes back along its path. */
-static void frames_earlier(const frame_set *f, double tau_s, frame_set *out)
-{
-    *out = *f;
-    const double c = cos(EARTH_TURN_RAD_S * tau_s), s = sin(EARTH_TURN_RAD_S * tau_s);
-    for (int i = 0; i < 3; i++) {
-        out->itrs_gcrs[i] = c * f->itrs_gcrs[i] - s * f->itrs_gcrs[3 + i];
-        out->itrs_gcrs[3 + i] = s * f->itrs_gcrs[i] + c * f->itrs_gcrs[3 + i];
-        out->sun_gcrs_m[i] -= tau_s * (f->sun_velocity_m_s[i] - f->earth_velocity_m_s[i]);
-    }
-}
-
-/* The satellite's state when the light that arrives at t_s left it; leaves the frames of emission.
- */
-static glint_status solve_light_time(const glint_scenario *s, double t_s, double guess_s,
-                                     orbit_cursor *cursor, sighting *out, frame_set *emission,
-                                     glint_error *error)
-{
-    /* A correction this small is applied along the velocity: it moves the satellite by at most
-     * 11 mm, and the curvature of the orbit over it by 1e-11 m. */
-    static const double SMALL_S = 1e-6;
-    enum { MOST_ROUNDS = 10 };
-    double *r = out->moment.r_m, *v = out->moment.v_m_s, rho[3];
-    double tau = s->light_time ? guess_s : 0;
-    for (int round = 0;; round++) {
-        frames_earlier(&out->frames, tau, emission);
-        const glint_status status = orbit_state(s->orbit, t_s - tau, emission, cursor, r, v, error);
-        if (status) return status;
-        sub3(r, out->site_gcrs_m, rho);
-        out->range_m = unit3(rho, out->sight_gcrs);
-        if (!s->light_time) break;
-        const double change = out->range_m / LIGHT_SPEED_M_S - tau;
-        tau += change;
-        if (fabs(change) > SMALL_S && round < MOST_ROUNDS) continue;
-        add_scaled3(r, -change, v, r);
-        sub3(r, out->site_gcrs_m, rho);
-        out->range_m = unit3(rho, out->sight_gcrs);
-        break;
-    }
-    out->light_time_s = tau;
-    return GLINT_OK;
-}
-
-glint_status sighting_at(const glint_scenario *s, const frame_grid *grid, double t_s,
-                         double guess_s, orbit_cursor *cursor, sighting *out, glint_error *error)
-{
-    frame_grid_at(grid, t_s, orbit_wanted_frames(s->orbit) | FRAMES_SUN, &out->frames);
-    mat_tvec(out->frames.itrs_gcrs, s->site.r_itrs_m, out->site_gcrs_m);
-    frame_set emission;
-    const glint_status status = solve_light_time(s, t_s, guess_s, cursor, out, &emission, error);
-    if (status) return status;
-    if (!(out->range_m > 0.0))
-        return error_set(error, GLINT_INPUT, PLACE_NONE,
-                         "at t_s = %.3f the satellite is at the observer; expected a distance",
-                         t_s);
-    moment *m = &out->moment;
-    m->t_s = t_s - out->light_time_s;
-    scale3(out->sight_gcrs, -1.0, m->observer);
-    memcpy(m->itrs_gcrs, emission.itrs_gcrs, sizeof m->itrs_gcrs);
-    sun_from_point(&emission, m->r_m, s->aberration, m->sun, &out->sun_distance_m);
-    if (s->needs_moon) {
-        double moon[3];
-        moon_position(&s->clock, m->t_s, moon);
-        sub3(moon, m->r_m, moon);
-        unit3(moon, m->moon);
-    }
-    return GLINT_OK;
-}
 
 /* Turns a direction of the vocabulary into a component's parent's axes. */
 static glint_status target_in_parent(const direction *target, const moment *m,
@@ -173,26 +101,34 @@ static void light_components(const satellite *sat, const moment *m,
     }
 }
 
-/* The elevation is precise at the zenith too. */
-void sky_place(const glint_scenario *s, const frame_set *frames, const double gcrs[3],
-               double *azimuth, double *elevation)
+/* Whether the observer can see the satellite, and where in its sky it is. */
+static void fill_view(const glint_scenario *s, const sighting *seen, int k, tile_geometry *out)
 {
-    double itrs[3], enu[3];
-    mat_vec(frames->itrs_gcrs, gcrs, itrs);
-    mat_vec(s->site.enu_itrs, itrs, enu);
-    const double angle = atan2(enu[0], enu[1]);
-    const double turned = angle + TWO_PI; /* may round to a full turn: that is 0 */
-    *azimuth = angle >= 0 ? angle : turned < TWO_PI ? turned : 0;
-    *elevation = atan2(enu[2], sqrt(enu[0] * enu[0] + enu[1] * enu[1]));
+    const scenario_observer *o = out->who;
+    out->azimuth[k] = out->elevation[k] = out->sun_elevation[k] = 0;
+    out->seen[k] = true;
+    if (o->kind == OBSERVER_SATELLITE)
+        out->seen[k] = !eclipse_earth_between(seen->observer_gcrs_m, seen->moment.r_m,
+                                              seen->moment.itrs_gcrs + 6);
+    if (o->kind != OBSERVER_SITE) return;
+    sighting_place(o, seen, &out->azimuth[k], &out->elevation[k]);
+    out->seen[k] = out->elevation[k] >= horizon_limit(&o->horizon, out->azimuth[k]);
+    out->sun_elevation[k] = sighting_sun_elevation(s, o, seen);
 }
 
-static void fill_site(const glint_scenario *s, const sighting *seen, int k, tile_geometry *out)
+/* The Moon as the observer sees it. */
+static void fill_moon(const glint_scenario *s, const sighting *seen, int k, viewer *v,
+                      tile_geometry *out)
 {
-    double sun[3], distance_m, sun_azimuth;
-    sky_place(s, &seen->frames, seen->sight_gcrs, &out->azimuth[k], &out->elevation[k]);
-    out->seen[k] = out->elevation[k] >= s->min_elevation;
-    sun_from_point(&seen->frames, seen->site_gcrs_m, s->aberration, sun, &distance_m);
-    sky_place(s, &seen->frames, sun, &sun_azimuth, &out->sun_elevation[k]);
+    double moon[3], sun[3], unit[3];
+    sighting_moon(s, v, seen, out->t_s[k], moon);
+    sub3(seen->frames.sun_gcrs_m, seen->observer_gcrs_m, sun);
+    out->moon_separation[k] = angle3(moon, seen->sight_gcrs);
+    out->moon_illuminated[k] = moon_illuminated(moon, sun);
+    out->moon_azimuth[k] = out->moon_elevation[k] = 0;
+    unit3(moon, unit);
+    if (out->who->kind == OBSERVER_SITE)
+        sky_place(out->who, &seen->frames, unit, &out->moon_azimuth[k], &out->moon_elevation[k]);
 }
 
 /* One row of a run with an orbit. */
@@ -200,16 +136,17 @@ static glint_status fill_row(const glint_scenario *s, const frame_grid *grid, un
                              double guess_s, int k, geometry_worker *worker, tile_geometry *out,
                              brdf_light *lights, sighting *seen, glint_error *error)
 {
-    glint_status status = sighting_at(s, grid, out->t_s[k], guess_s, &worker->cursor, seen, error);
+    viewer *v = &worker->viewer;
+    glint_status status = sighting_at(s, grid, out->t_s[k], guess_s, v, seen, error);
     if (status) return status;
     const moment *m = &seen->moment;
-    const double *pole = m->itrs_gcrs + 6;
     out->range_m[k] = seen->range_m;
     out->phase_angle[k] = angle3(m->sun, m->observer);
-    out->sunlit[k] = eclipse_sunlit_fraction(m->r_m, m->sun, seen->sun_distance_m, pole);
+    out->sunlit[k] = sighting_sunlit(s, v, seen, &out->moon_covers[k]);
     const double au = AU_M / seen->sun_distance_m;
     out->sun_weight[k] = out->sunlit[k] * au * au;
-    fill_site(s, seen, k, out);
+    fill_view(s, seen, k, out);
+    if (wanted & GEOMETRY_MOON) fill_moon(s, seen, k, v, out);
     if (wanted & GEOMETRY_HEIGHT) {
         double itrs[3], latitude, longitude;
         mat_vec(m->itrs_gcrs, m->r_m, itrs);
@@ -237,6 +174,8 @@ static glint_status fill_given_row(const glint_scenario *s, int64_t row, int k,
     out->phase_angle[k] = angle3(m.sun, m.observer);
     out->sunlit[k] = out->sun_weight[k] = 1;
     out->seen[k] = true;
+    out->moon_covers[k] = false;
+    out->azimuth[k] = out->elevation[k] = out->sun_elevation[k] = 0;
     const glint_status status =
         turn_components(&s->satellite, &m, body, worker->component_gcrs, NULL, error);
     if (status) return status;
@@ -266,6 +205,7 @@ glint_status geometry_fill(const glint_scenario *s, const frame_grid *grid, unsi
     double guess_s = 0, rate = 0, before_s = 0;
     out->first = first;
     out->n = n;
+    out->who = s->has_geometry ? NULL : worker->viewer.observer;
     out->any_bright = false;
     for (int k = 0; k < n; k++) {
         glint_status status;
@@ -294,6 +234,7 @@ glint_status geometry_fill_at(const glint_scenario *s, const frame_grid *grid, u
     sighting seen = {0};
     out->first = 0;
     out->n = n;
+    out->who = worker->viewer.observer;
     out->any_bright = false;
     for (int k = 0; k < n; k++) {
         out->t_s[k] = t_s[k];

@@ -9,10 +9,11 @@
 /* Events are found to this: a thousandth of the 1 ms that is promised. */
 #define EVENT_TOLERANCE_S 1e-6
 
-/* While the satellite is above min_elevation. */
+/* While the satellite is above a site's horizon. */
 typedef struct pass_span {
     double from_s, to_s;
     bool up_at_start, up_at_end;
+    const scenario_observer *site; /* borrowed */
 } pass_span;
 
 typedef struct pass_span_list {
@@ -20,7 +21,7 @@ typedef struct pass_span_list {
     size_t n, capacity;
 } pass_span_list;
 
-/* Finds all spans within the scenario's time. Errors: of the orbit; GLINT_INTERNAL (memory). */
+/* Appends all spans over the watch's site within the scenario's time. Errors: of the orbit; GLINT_INTERNAL (memory). */
 glint_status pass_spans_find(watch *w, pass_span_list *out, glint_error *error);
 /* The highest moment of a span. */
 glint_status pass_culmination(watch *w, const pass_span *span, double *t_s, glint_error *error);

@@ -43,14 +43,16 @@ static double total_of(const model *m, const double *x, int band, int k)
 
 static unsigned flags_of(const glint_scenario *s, const tile_geometry *g, int k, bool bright)
 {
+    const bool at_site = g->who && g->who->kind == OBSERVER_SITE;
     unsigned flags = 0;
-    if (!g->seen[k]) flags |= GLINT_BELOW_HORIZON;
+    if (!g->seen[k]) flags |= at_site ? GLINT_BELOW_HORIZON : GLINT_BLOCKED;
     if (!(g->sunlit[k] > 0))
         flags |= GLINT_UMBRA;
     else if (g->sunlit[k] < 1)
         flags |= GLINT_PENUMBRA;
     if (!flags || flags == GLINT_PENUMBRA) flags |= bright ? 0 : GLINT_DARK;
-    if (!s->has_geometry && g->sun_elevation[k] < s->sun_elevation_max) flags |= GLINT_SITE_DARK;
+    if (at_site && g->sun_elevation[k] < s->sun_elevation_max) flags |= GLINT_SITE_DARK;
+    if (g->moon_covers[k]) flags |= GLINT_MOON_SHADOW;
     return flags;
 }
 
@@ -58,6 +60,7 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
                      const photometry_rows *out)
 {
     const model *m = &s->satellite.model;
+    const bool at_site = g->who && g->who->kind == OBSERVER_SITE;
     for (int k = 0; k < g->n; k++) {
         const size_t row = (size_t)k;
         double *flux = out->flux_ratio + row * (size_t)s->n_bands;
@@ -66,7 +69,7 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
         double *component = out->share_component + row * (size_t)m->n_components;
         memset(material, 0, (size_t)m->n_materials * sizeof *material);
         memset(component, 0, (size_t)m->n_components * sizeof *component);
-        const double airmass = s->has_geometry ? 0 : airmass_kasten_young(g->elevation[k]);
+        const double airmass = at_site ? airmass_kasten_young(g->elevation[k]) : 0;
         const double weight =
             x && g->seen[k] ? g->sun_weight[k] / (g->range_m[k] * g->range_m[k]) : 0;
         bool bright = false;
@@ -91,14 +94,19 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
                          .sun_elevation_rad = g->sun_elevation[k],
                          .airmass = airmass,
                          .height_m = g->height_m[k],
+                         .has_site = at_site,
+                         .observer = g->who ? g->who->name : "",
                          .flux_ratio = flux,
                          .magnitude = magnitude,
                          .share_material = material,
                          .share_component = component};
-        if (s->has_geometry)
-            r->azimuth_rad = r->elevation_rad = r->sun_elevation_rad = 0;
-        else
-            run_clock_utc(&s->clock, g->t_s[k], &r->utc);
+        if (!s->has_geometry) run_clock_utc(&s->clock, g->t_s[k], &r->utc);
+        if (s->moon_columns) {
+            r->moon_azimuth_rad = g->moon_azimuth[k];
+            r->moon_elevation_rad = g->moon_elevation[k];
+            r->moon_separation_rad = g->moon_separation[k];
+            r->moon_illuminated = g->moon_illuminated[k];
+        }
         r->flags = flags_of(s, g, k, bright);
     }
 }

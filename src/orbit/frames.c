@@ -29,7 +29,7 @@ typedef struct node_table {
 
 struct frame_grid {
     run_clock clock;
-    double polar[9]; /* polar motion without s': v_itrs = R v_tirs */
+    double polar[9]; /* polar motion without s': v_itrs = R v_tirs; where the clock has none */
     bool full;       /* evaluate at every moment, use no table */
     node_table cip;  /* X, Y, s */
     node_table sun;  /* see sun_state */
@@ -240,12 +240,26 @@ static double gmst82_minus_rotation(const double ut1_jd[2])
     return TWO_PI * (turns - 0.7790572732640 - 0.00273781191135448 * days);
 }
 
+/* Polar motion of the grid, or of the clock's table, without s'. */
+static void polar_motion(const frame_grid *grid, const double tt_jd[2], double out[9])
+{
+    if (!grid->clock.eop) {
+        memcpy(out, grid->polar, sizeof grid->polar);
+        return;
+    }
+    eop_values values;
+    double polar[3][3];
+    eop_at(grid->clock.eop, tt_jd, &values);
+    eraPom00(values.xp_rad, values.yp_rad, 0.0, polar);
+    memcpy(out, polar, sizeof polar);
+}
+
 /* With M the pole's matrix, ITRS = W R3(ERA + s' - s) M GCRS: the locators s and s' are turns about
  * the axis of the Earth's rotation and join its angle. TEME has no s', ITRS = W R3(GMST82) TEME;
  * so W, polar motion, cancels in GCRS = M^T R3(GMST82 - ERA - s' + s) TEME. */
 void frame_grid_at(const frame_grid *grid, double t_s, unsigned wanted, frame_set *out)
 {
-    double tt_jd[2], ut1_jd[2], xys[CIP_WIDTH], pole[9];
+    double tt_jd[2], ut1_jd[2], xys[CIP_WIDTH], pole[9], polar[9];
     run_clock_tt(&grid->clock, t_s, tt_jd);
     run_clock_ut1(&grid->clock, t_s, ut1_jd);
     if (grid->full)
@@ -255,7 +269,8 @@ void frame_grid_at(const frame_grid *grid, double t_s, unsigned wanted, frame_se
     pole_matrix(xys[0], xys[1], pole);
     const double locators = eraSp00(tt_jd[0], tt_jd[1]) - xys[2];
     turn_about_pole(rotation_angle(ut1_jd) + locators, pole, out->itrs_gcrs);
-    mat_mul(grid->polar, out->itrs_gcrs, out->itrs_gcrs);
+    polar_motion(grid, tt_jd, polar);
+    mat_mul(polar, out->itrs_gcrs, out->itrs_gcrs);
     if (wanted & FRAMES_TEME) {
         turn_about_pole(locators - gmst82_minus_rotation(ut1_jd), pole, out->gcrs_teme);
         mat_transpose(out->gcrs_teme, out->gcrs_teme);

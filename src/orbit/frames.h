@@ -4,7 +4,7 @@
 
 #include "orbit/clock.h"
 
-/* Orientation of the Earth that a run assumes; immutable. */
+/* Polar motion that a run assumes where its clock has no table of it; immutable. */
 typedef struct earth_orientation {
     double xp_rad, yp_rad; /* polar motion */
 } earth_orientation;

@@ -57,7 +57,7 @@ void summary_add(summary_maker *m, const glint_row *rows, size_t n)
         const bool sunlit = rows[k].sunlit_fraction > 0;
         const int halves = sunlit ? halves_of(m, rows[k].t_s) : 0;
         m->sunlit_halves += halves;
-        m->visible_halves += rows[k].flags & GLINT_BELOW_HORIZON ? 0 : halves;
+        m->visible_halves += rows[k].flags & (GLINT_BELOW_HORIZON | GLINT_BLOCKED) ? 0 : halves;
         if (rows[k].flux_ratio[0] > 0) add_magnitude(m, &rows[k]);
     }
 }

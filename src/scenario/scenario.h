@@ -8,7 +8,9 @@
 #include "orbit/attitude.h"
 #include "orbit/earth.h"
 #include "orbit/hinge.h"
+#include "orbit/horizon.h"
 #include "orbit/orbit.h"
+#include "orbit/refraction.h"
 #include "scenario/toml.h"
 
 enum { SCENARIO_MAX_BANDS = 16 };
@@ -51,6 +53,40 @@ typedef enum orbit_source {
     ORBIT_GEOSTATIONARY
 } orbit_source;
 
+/* An orbit: how the scenario says it, and what propagates it. */
+typedef struct scenario_orbit {
+    orbit_source source;
+    tle tle;
+    kepler_elements kepler; /* KEPLER and CIRCULAR */
+    double epoch_s;         /* of these: TT s from the start */
+    bool j2;
+    double geostationary_longitude; /* rad */
+    orbit *propagator;              /* owned */
+} scenario_orbit;
+
+typedef enum observer_kind {
+    OBSERVER_SITE,      /* a place on the ground */
+    OBSERVER_SATELLITE, /* with an orbit of its own */
+    OBSERVER_DIRECTION  /* always in the same direction from the satellite */
+} observer_kind;
+
+/* Who looks. */
+typedef struct scenario_observer {
+    const char *name; /* "" where not said; borrowed from the document */
+    place where;      /* of its table */
+    observer_kind kind;
+    /* Of a site: */
+    earth_site site;
+    horizon horizon; /* owned: what is lower is not seen */
+    refraction air;
+    /* Of a satellite: */
+    scenario_orbit orbit;
+    /* Of a direction: */
+    bool in_body;        /* else in GCRS */
+    double direction[3]; /* unit, from the satellite to the observer */
+    double range_m;
+} scenario_observer;
+
 typedef enum self_shadows { SHADOWS_EXACT, SHADOWS_NONE } self_shadows;
 
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
@@ -70,6 +106,7 @@ typedef struct expectation {
     bool by_row; /* else by t_s */
     int64_t row;
     double t_s;
+    const char *observer; /* with t_s: its name; borrowed from the document */
     const char *column;
     bool empty;                       /* the cell must be empty (from a table) */
     double value, absolute, relative; /* |got - value| <= absolute + relative |value| */
@@ -118,17 +155,10 @@ struct glint_scenario {
     double step_s;
     int64_t n_steps;
 
-    const char *site_name; /* "" where not said */
-    earth_site site;
-    double min_elevation; /* rad */
+    scenario_observer *observers; /* owned; in the order of the file */
+    int n_observers;              /* 0 only where directions are given */
 
-    orbit_source orbit_source;
-    tle tle;
-    kepler_elements kepler; /* KEPLER and CIRCULAR */
-    double orbit_epoch_s;   /* TT s from the start */
-    bool j2;
-    double geostationary_longitude;
-    orbit *orbit; /* owned */
+    scenario_orbit orbit;
 
     bool has_attitude, has_satellite; /* false only where they may be absent, and are */
     attitude attitude;
@@ -145,8 +175,12 @@ struct glint_scenario {
 
     bool light_time, aberration;
     double dut1_s;
+    eop_table *eop;       /* owned; NULL: dut1_s throughout, and no polar motion */
+    const char *eop_name; /* of its file, as written; borrowed from the document */
+    place eop_where;
 
     rows_choice rows;
+    bool moon_columns;
     double sun_elevation_max; /* rad; of a dark site */
     unsigned shares;
 
