@@ -2,6 +2,7 @@
 #include "base/constants.h"
 #include "base/fasttrig.h"
 #include "brdf/fastmath.h"
+#include "lightcurve/sky.h"
 #include "testing.h"
 
 #include <float.h>
@@ -60,6 +61,28 @@ START_TEST(test_turn_sin_cos_turns)
             assert_near(s, (double)sinl((long double)x + (long double)turn), 3e-16);
             assert_near(c, (double)cosl((long double)x + (long double)turn), 3e-16);
         }
+}
+END_TEST
+
+START_TEST(test_sky_angle_is_that_of_atan2)
+{
+    for (double x = -1; x <= 1; x += 0.0123)
+        for (double y = -1; y <= 1; y += 0.0117)
+            assert_near(sky_angle(y, x), (double)atan2l((long double)y, (long double)x), 1.6e-15);
+    for (double y = 1e-300; y < 1e-3; y *= 13) {
+        assert_rel(sky_angle(y, 1), y, 1e-6); /* y - y^3/3 */
+        assert_rel(sky_angle(-y, 1), -y, 1e-6);
+        assert_near(sky_angle(y, -1), PI - y, 1e-9);
+        assert_near(sky_angle(1, y), 0.5 * PI - y, 1e-9);
+    }
+    assert_near(sky_angle(0, 0), 0, 0);
+    assert_near(sky_angle(0, -1), PI, 0);
+    assert_near(sky_azimuth(0, 0), 0, 0);
+    assert_near(sky_azimuth(-1e-300, 1), 0, 0); /* not a full turn */
+    assert_near(sky_azimuth(-1, 0), 1.5 * PI, 1e-15);
+    assert_near(sky_azimuth(1, 0), 0.5 * PI, 4e-16);
+    assert_near(sky_elevation(0, 0, 1), 0.5 * PI, 4e-16);
+    assert_near(sky_elevation(3, 4, -5), -0.25 * PI, 4e-16);
 }
 END_TEST
 
@@ -171,6 +194,7 @@ int main(void)
     tcase_add_test(tests, test_fast_log_1m_small_complement_keeps_digits);
     tcase_add_test(tests, test_fast_log_zero_is_finite_and_low);
     tcase_add_test(tests, test_fast_angle_within_stated_ulp);
+    tcase_add_test(tests, test_sky_angle_is_that_of_atan2);
     suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

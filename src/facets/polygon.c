@@ -214,7 +214,7 @@ static inline bool boxes_overlap(const box2 *a, const box2 *b)
 
 /* How points lie to the lines of a polygon: apart, when all are outside one line; covered, when
  * none is outside any. */
-LANES_CLONES static polygon_relation relate_to_lines(const point2 *points, int n,
+CLONES static polygon_relation relate_to_lines(const point2 *points, int n,
                                                      const polygon_lines *lines, int n_lines)
 {
     polygon_relation relation = POLYGON_COVERED;

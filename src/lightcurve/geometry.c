@@ -1,7 +1,9 @@
 #include "lightcurve/geometry.h"
 
+#include "base/clones.h"
 #include "base/constants.h"
 #include "base/vec.h"
+#include "lightcurve/sky.h"
 #include "orbit/eclipse.h"
 
 #include <math.h>
@@ -101,19 +103,60 @@ static void light_components(const satellite *sat, const moment *m,
     }
 }
 
-/* Whether the observer can see the satellite, and where in its sky it is. */
-static void fill_view(const glint_scenario *s, const sighting *seen, int k, tile_geometry *out)
+_Static_assert((int)TILE == (int)FRAME_LANES, "frames come by the tile");
+
+/* What the angles of a tile follow from: number i of lane k at [i][k]. */
+typedef struct view_lanes {
+    double satellite[3][TILE], sun[3][TILE]; /* east, north, up of a site; else 0 */
+    double phase[2][TILE];                   /* sine and cosine of the phase angle */
+} view_lanes;
+
+static void keep_lane(const double v[3], int k, double lanes[3][TILE])
+{
+    for (int i = 0; i < 3; i++)
+        lanes[i][k] = v[i];
+}
+
+/* Leaves what the observer of lane k sees, for when all lanes are there. */
+static void keep_view(const glint_scenario *s, const sighting *seen, int k,
+                      const scenario_observer *who, view_lanes *lanes)
+{
+    double across[3], enu[3], sun[3], distance_m;
+    cross3(seen->moment.sun, seen->moment.observer, across);
+    lanes->phase[0][k] = norm3(across);
+    lanes->phase[1][k] = dot3(seen->moment.sun, seen->moment.observer);
+    if (who->kind != OBSERVER_SITE) return;
+    sky_axes(who, &seen->frames, seen->sight_gcrs, enu);
+    keep_lane(enu, k, lanes->satellite);
+    sun_from_point(&seen->frames, seen->observer_gcrs_m, s->aberration, sun, &distance_m);
+    sky_axes(who, &seen->frames, sun, enu);
+    keep_lane(enu, k, lanes->sun);
+}
+
+/* Angles of all lanes at once. */
+CLONES FLATTEN static void find_angles(const view_lanes *restrict l, tile_geometry *restrict out)
+{
+    for (int k = 0; k < TILE; k++) {
+        out->phase_angle[k] = sky_angle(l->phase[0][k], l->phase[1][k]);
+        out->azimuth[k] = sky_azimuth(l->satellite[0][k], l->satellite[1][k]);
+        out->elevation[k] =
+            sky_elevation(l->satellite[0][k], l->satellite[1][k], l->satellite[2][k]);
+        out->sun_elevation[k] = sky_elevation(l->sun[0][k], l->sun[1][k], l->sun[2][k]);
+    }
+}
+
+/* What follows from the angles: refraction, and what stands above the horizon. */
+static void finish_view(const view_lanes *lanes, tile_geometry *out)
 {
     const scenario_observer *o = out->who;
-    out->azimuth[k] = out->elevation[k] = out->sun_elevation[k] = 0;
-    out->seen[k] = true;
-    if (o->kind == OBSERVER_SATELLITE)
-        out->seen[k] = !eclipse_earth_between(seen->observer_gcrs_m, seen->moment.r_m,
-                                              seen->moment.itrs_gcrs + 6);
-    if (o->kind != OBSERVER_SITE) return;
-    sighting_place(o, seen, &out->azimuth[k], &out->elevation[k]);
-    out->seen[k] = out->elevation[k] >= horizon_limit(&o->horizon, out->azimuth[k]);
-    out->sun_elevation[k] = sighting_sun_elevation(s, o, seen);
+    find_angles(lanes, out);
+    for (int k = 0; k < out->n; k++) {
+        if (o->kind == OBSERVER_SITE) {
+            out->elevation[k] = refraction_apparent(&o->air, out->elevation[k]);
+            out->seen[k] = out->elevation[k] >= horizon_limit(&o->horizon, out->azimuth[k]);
+        }
+        if (out->seen[k] && out->sun_weight[k] > 0) out->any_bright = true;
+    }
 }
 
 /* The Moon as the observer sees it. */
@@ -131,21 +174,22 @@ static void fill_moon(const glint_scenario *s, const sighting *seen, int k, view
         sky_place(out->who, &seen->frames, unit, &out->moon_azimuth[k], &out->moon_elevation[k]);
 }
 
-/* One row of a run with an orbit. */
-static glint_status fill_row(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
-                             double guess_s, int k, geometry_worker *worker, tile_geometry *out,
-                             brdf_light *lights, sighting *seen, glint_error *error)
+/* One row of a run with an orbit, but for its angles; seen: with the frames. */
+static glint_status fill_row(const glint_scenario *s, unsigned wanted, double guess_s, int k,
+                             geometry_worker *worker, tile_geometry *out, brdf_light *lights,
+                             view_lanes *lanes, sighting *seen, glint_error *error)
 {
     viewer *v = &worker->viewer;
-    glint_status status = sighting_at(s, grid, out->t_s[k], guess_s, v, seen, error);
+    glint_status status = sighting_complete(s, out->t_s[k], guess_s, v, seen, error);
     if (status) return status;
     const moment *m = &seen->moment;
     out->range_m[k] = seen->range_m;
-    out->phase_angle[k] = angle3(m->sun, m->observer);
     out->sunlit[k] = sighting_sunlit(s, v, seen, &out->moon_covers[k]);
     const double au = AU_M / seen->sun_distance_m;
     out->sun_weight[k] = out->sunlit[k] * au * au;
-    fill_view(s, seen, k, out);
+    out->seen[k] = v->observer->kind != OBSERVER_SATELLITE ||
+                   !eclipse_earth_between(seen->observer_gcrs_m, m->r_m, m->itrs_gcrs + 6);
+    keep_view(s, seen, k, v->observer, lanes);
     if (wanted & GEOMETRY_MOON) fill_moon(s, seen, k, v, out);
     if (wanted & GEOMETRY_HEIGHT) {
         double itrs[3], latitude, longitude;
@@ -197,54 +241,72 @@ static void fill_spare_lanes(int n, int n_components, brdf_light *lights)
     }
 }
 
+/* Rows of a run whose directions are given. */
+static glint_status fill_given(const glint_scenario *s, int64_t first, geometry_worker *worker,
+                               tile_geometry *out, brdf_light *lights, glint_error *error)
+{
+    for (int k = 0; k < out->n; k++) {
+        out->t_s[k] = s->geometry.t_s[first + k];
+        const glint_status status = fill_given_row(s, first + k, k, worker, out, lights, error);
+        if (status) return status;
+        out->any_bright = true;
+    }
+    return GLINT_OK;
+}
+
+/* Rows of a run with an orbit, at out->t_s. in_steps: times are steps of a run, so that the next
+ * light time is guessed by straight extrapolation: right to 1e-6 s for short steps. */
+static glint_status fill_rows(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
+                              bool in_steps, geometry_worker *worker, tile_geometry *out,
+                              brdf_light *lights, glint_error *error)
+{
+    frame_set frames[TILE];
+    view_lanes lanes = {0};
+    sighting seen;
+    double guess_s = 0, before_s = 0;
+    frame_grid_fill(grid, out->t_s, out->n, sighting_wanted_frames(s, &worker->viewer), frames);
+    for (int k = 0; k < out->n; k++) {
+        seen.frames = frames[k];
+        const glint_status status =
+            fill_row(s, wanted, guess_s, k, worker, out, lights, &lanes, &seen, error);
+        if (status) return status;
+        const double rate = in_steps && k > 0 ? seen.light_time_s - before_s : 0;
+        before_s = seen.light_time_s;
+        guess_s = before_s + rate > 0 ? before_s + rate : before_s;
+    }
+    finish_view(&lanes, out);
+    return GLINT_OK;
+}
+
 glint_status geometry_fill(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
                            int64_t first, int n, geometry_worker *worker, tile_geometry *out,
                            brdf_light *lights, glint_error *error)
 {
-    sighting seen;
-    double guess_s = 0, rate = 0, before_s = 0;
     out->first = first;
     out->n = n;
     out->who = s->has_geometry ? NULL : worker->viewer.observer;
     out->any_bright = false;
-    for (int k = 0; k < n; k++) {
-        glint_status status;
-        if (s->has_geometry) {
-            out->t_s[k] = s->geometry.t_s[first + k];
-            status = fill_given_row(s, first + k, k, worker, out, lights, error);
-        } else {
-            out->t_s[k] = (double)(first + k) * s->step_s;
-            status = fill_row(s, grid, wanted, guess_s, k, worker, out, lights, &seen, error);
-            /* The next light time by straight extrapolation: right to 1e-6 s for short steps. */
-            if (k > 0) rate = seen.light_time_s - before_s;
-            before_s = seen.light_time_s;
-            guess_s = before_s + rate > 0 ? before_s + rate : before_s;
-        }
-        if (status) return status;
-        if (out->seen[k] && out->sun_weight[k] > 0) out->any_bright = true;
-    }
-    fill_spare_lanes(n, s->satellite.n_components, lights);
-    return GLINT_OK;
+    for (int k = 0; k < n; k++)
+        out->t_s[k] = (double)(first + k) * s->step_s;
+    const glint_status status = s->has_geometry
+                                    ? fill_given(s, first, worker, out, lights, error)
+                                    : fill_rows(s, grid, wanted, true, worker, out, lights, error);
+    if (!status) fill_spare_lanes(n, s->satellite.n_components, lights);
+    return status;
 }
 
 glint_status geometry_fill_at(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
                               const double *t_s, int n, geometry_worker *worker, tile_geometry *out,
                               brdf_light *lights, glint_error *error)
 {
-    sighting seen = {0};
     out->first = 0;
     out->n = n;
     out->who = worker->viewer.observer;
     out->any_bright = false;
-    for (int k = 0; k < n; k++) {
-        out->t_s[k] = t_s[k];
-        const glint_status status =
-            fill_row(s, grid, wanted, seen.light_time_s, k, worker, out, lights, &seen, error);
-        if (status) return status;
-        if (out->seen[k] && out->sun_weight[k] > 0) out->any_bright = true;
-    }
-    fill_spare_lanes(n, s->satellite.n_components, lights);
-    return GLINT_OK;
+    memcpy(out->t_s, t_s, (size_t)n * sizeof *t_s);
+    const glint_status status = fill_rows(s, grid, wanted, false, worker, out, lights, error);
+    if (!status) fill_spare_lanes(n, s->satellite.n_components, lights);
+    return status;
 }
 
 glint_status satellite_plan_shadows(const satellite *sat, visibility **out, glint_error *error)

@@ -1,7 +1,9 @@
 #include "lightcurve/sighting.h"
 
 #include "base/constants.h"
+#include "base/fasttrig.h"
 #include "base/vec.h"
+#include "lightcurve/sky.h"
 #include "orbit/eclipse.h"
 
 #include <math.h>
@@ -11,8 +13,14 @@
  * over a second), the Sun goes back along its path. */
 static void frames_earlier(const frame_set *f, double tau_s, frame_set *out)
 {
+    static const double SMALL = 1e-3; /* rad: 14 s */
+    const double angle = EARTH_TURN_RAD_S * tau_s;
+    double s = 0, c = 1;
+    if (fabs(angle) < SMALL)
+        turn_sin_cos(angle, &s, &c);
+    else
+        fast_sin_cos(angle, &s, &c);
     *out = *f;
-    const double c = cos(EARTH_TURN_RAD_S * tau_s), s = sin(EARTH_TURN_RAD_S * tau_s);
     for (int i = 0; i < 3; i++) {
         out->itrs_gcrs[i] = c * f->itrs_gcrs[i] - s * f->itrs_gcrs[3 + i];
         out->itrs_gcrs[3 + i] = s * f->itrs_gcrs[i] + c * f->itrs_gcrs[3 + i];
@@ -37,16 +45,15 @@ static glint_status solve_light_time(const glint_scenario *s, double t_s, double
             orbit_state(s->orbit.propagator, t_s - tau, emission, &v->target, r, speed, error);
         if (status) return status;
         sub3(r, out->observer_gcrs_m, rho);
-        out->range_m = unit3(rho, out->sight_gcrs);
         if (!s->light_time) break;
-        const double change = out->range_m / LIGHT_SPEED_M_S - tau;
+        const double change = norm3(rho) * (1 / LIGHT_SPEED_M_S) - tau;
         tau += change;
         if (fabs(change) > SMALL_S && round < MOST_ROUNDS) continue;
         add_scaled3(r, -change, speed, r);
         sub3(r, out->observer_gcrs_m, rho);
-        out->range_m = unit3(rho, out->sight_gcrs);
         break;
     }
+    out->range_m = unit3(rho, out->sight_gcrs);
     out->light_time_s = tau;
     return GLINT_OK;
 }
@@ -111,10 +118,22 @@ static glint_status look_from_direction(const glint_scenario *s, double t_s, vie
 glint_status sighting_at(const glint_scenario *s, const frame_grid *grid, double t_s,
                          double guess_s, viewer *v, sighting *out, glint_error *error)
 {
+    frame_grid_at(grid, t_s, sighting_wanted_frames(s, v), &out->frames);
+    return sighting_complete(s, t_s, guess_s, v, out, error);
+}
+
+unsigned sighting_wanted_frames(const glint_scenario *s, const viewer *v)
+{
     const scenario_observer *o = v->observer;
     unsigned wanted = orbit_wanted_frames(s->orbit.propagator) | FRAMES_SUN;
     if (o->kind == OBSERVER_SATELLITE) wanted |= orbit_wanted_frames(o->orbit.propagator);
-    frame_grid_at(grid, t_s, wanted, &out->frames);
+    return wanted;
+}
+
+glint_status sighting_complete(const glint_scenario *s, double t_s, double guess_s, viewer *v,
+                               sighting *out, glint_error *error)
+{
+    const scenario_observer *o = v->observer;
     if (o->kind == OBSERVER_DIRECTION) return look_from_direction(s, t_s, v, out, error);
     frame_set emission;
     glint_status status = place_observer(t_s, v, out, error);
@@ -129,17 +148,21 @@ glint_status sighting_at(const glint_scenario *s, const frame_grid *grid, double
     return GLINT_OK;
 }
 
-/* The elevation is precise at the zenith too. */
+void sky_axes(const scenario_observer *site, const frame_set *frames, const double gcrs[3],
+              double enu[3])
+{
+    double itrs[3];
+    mat_vec(frames->itrs_gcrs, gcrs, itrs);
+    mat_vec(site->site.enu_itrs, itrs, enu);
+}
+
 void sky_place(const scenario_observer *site, const frame_set *frames, const double gcrs[3],
                double *azimuth, double *elevation)
 {
-    double itrs[3], enu[3];
-    mat_vec(frames->itrs_gcrs, gcrs, itrs);
-    mat_vec(site->site.enu_itrs, itrs, enu);
-    const double angle = atan2(enu[0], enu[1]);
-    const double turned = angle + TWO_PI; /* may round to a full turn: that is 0 */
-    *azimuth = angle >= 0 ? angle : turned < TWO_PI ? turned : 0;
-    *elevation = atan2(enu[2], sqrt(enu[0] * enu[0] + enu[1] * enu[1]));
+    double enu[3];
+    sky_axes(site, frames, gcrs, enu);
+    *azimuth = sky_azimuth(enu[0], enu[1]);
+    *elevation = sky_elevation(enu[0], enu[1], enu[2]);
 }
 
 void sighting_place(const scenario_observer *site, const sighting *seen, double *azimuth,

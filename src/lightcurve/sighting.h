@@ -29,6 +29,15 @@ typedef struct sighting {
 glint_status sighting_at(const glint_scenario *s, const frame_grid *grid, double t_s,
                          double guess_s, viewer *v, sighting *out, glint_error *error);
 
+/* What frames a sighting takes, as of frame_grid_at. */
+unsigned sighting_wanted_frames(const glint_scenario *s, const viewer *v);
+/* The same as sighting_at where out->frames is filled in already. */
+glint_status sighting_complete(const glint_scenario *s, double t_s, double guess_s, viewer *v,
+                               sighting *out, glint_error *error);
+
+/* East, north, up of a site, of a vector in GCRS. */
+void sky_axes(const scenario_observer *site, const frame_set *frames, const double gcrs[3],
+              double enu[3]);
 /* Azimuth (0..2 pi, from north through east) and elevation, geometric, at a site of a unit vector
  * in GCRS. */
 void sky_place(const scenario_observer *site, const frame_set *frames, const double gcrs[3],
