@@ -53,7 +53,7 @@ START_TEST(test_eop_agrees_with_another_program)
         ck_assert_int_eq(frame_grid_prepare(&clock, &still, 0, 60, 1, &grid, NULL), GLINT_OK);
         frame_grid_at(grid, 0, 0, &frames);
         for (int i = 0; i < 9; i++) {
-            char name[8];
+            char name[32];
             snprintf(name, sizeof name, "r%d%d", i / 3 + 1, i % 3 + 1);
             /* interpolated frames keep 1e-11; the values' last digits 1e-13 */
             assert_near(frames.itrs_gcrs[i], table_number(&rows, row, name), 2e-11);

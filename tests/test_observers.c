@@ -642,6 +642,106 @@ START_TEST(test_observers_moon_shadow_dims_a_geostationary_satellite)
 }
 END_TEST
 
+/* A run that comes from far away in time meets the same event. */
+START_TEST(test_observers_moon_shadow_is_met_by_a_run_on_its_way)
+{
+    csv_table t = table_open(TEST_DATA_DIR "/orbit/moon_shadow.csv");
+    const char *parts[N_PARTS];
+    memcpy(parts, SOUND, sizeof parts);
+    parts[PART_TIME] = "[time]\nstart = 2025-09-21T00:00:00Z\nduration_s = 86400\nstep_s = 360\n";
+    parts[PART_ORBIT] = "[orbit]\ncircular = { geostationary_longitude_deg = -85 }\n";
+    parts[PART_OBSERVER] =
+        "[observer.direction]\nframe = \"gcrs\"\nvector = [0, 0, 1]\nrange_km = 1\n";
+    run_rows r = run_with(parts, PART_SETTINGS, AT_ONCE);
+    int found = 0;
+    for (long row = 0; row < t.n_rows; row++) {
+        const char *utc = table_text(&t, row, "utc");
+        if (strncmp(utc, "2025-09-21T", 11) != 0) continue;
+        const int step = 10 * atoi(utc + 11) + atoi(utc + 14) / 6;
+        assert_near(r.rows[step].sunlit_fraction, table_number(&t, row, "fraction"), 2e-4);
+        found++;
+    }
+    ck_assert_int_gt(found, 8);
+    int flagged = 0; /* from 15:54 to 16:42, and nowhere else */
+    for (size_t k = 0; k < r.n; k++)
+        flagged += (r.rows[k].flags & GLINT_MOON_SHADOW) != 0;
+    ck_assert_int_eq(flagged, 9);
+    rows_free(&r);
+    csv_free(&t);
+}
+END_TEST
+
+/* ------------------------------------------------------------ what is said of it */
+
+/* The fact of a run in a new text; "" where there is none. */
+static char *fact_of(const glint_scenario *s, const char *wanted)
+{
+    glint_curve *curve;
+    const char *key, *value;
+    char *out = NULL;
+    ck_assert_int_eq(glint_curve_open(s, 1, &curve, NULL), GLINT_OK);
+    for (size_t k = 0; !out && glint_curve_fact(curve, k, &key, &value); k++)
+        if (strcmp(key, wanted) == 0) out = strdup(value);
+    glint_curve_close(curve);
+    return out ? out : strdup("");
+}
+
+static void assert_says(const glint_scenario *s, const char *key, const char *with,
+                        const char *without)
+{
+    char *value = fact_of(s, key);
+    ck_assert_msg(!with || strstr(value, with), "%s: %s; wanted '%s'", key, value, with);
+    ck_assert_msg(!without || !strstr(value, without), "%s: %s; unwanted '%s'", key, value,
+                  without);
+    free(value);
+}
+
+START_TEST(test_observers_header_says_what_is_assumed)
+{
+    glint_scenario *s = read_with(SOUND, PART_OBSERVER, SITE);
+    assert_says(s, "not_modelled", "refraction of the line of sight", "Moon's shadow");
+    assert_says(s, "eclipse", "Moon's disc", NULL);
+    assert_says(s, "dut1_s", "taken as 0", NULL);
+    assert_says(s, "polar_motion", "taken as 0", NULL);
+    assert_says(s, "observer", "48.2", "refraction");
+    glint_scenario_free(s);
+    s = read_with(SOUND, PART_OBSERVER, SITE "refraction = true\nhorizon_deg = [[0, 5]]\n");
+    assert_says(s, "not_modelled", NULL, "refraction of the line of sight");
+    assert_says(s, "observer", "Bennett 1982", NULL);
+    assert_says(s, "observer", "a mask of 1 points up to 5 deg", NULL);
+    glint_scenario_free(s);
+    s = read_with(SOUND, PART_OBSERVER, THREE);
+    assert_says(s, "observers", "geo: a satellite, geostationary", NULL);
+    assert_says(s, "observer", NULL, "Vienna");
+    glint_scenario_free(s);
+    char settings[1200];
+    snprintf(settings, sizeof settings, "[corrections]\neop = \"%s\"\n",
+             TEST_DATA_DIR "/orbit/eop_finals.txt");
+    s = read_three(PART_TIME,
+                   "[time]\nstart = 2016-04-25T12:00:00Z\nduration_s = 60\nstep_s = 10\n",
+                   PART_OBSERVER, SITE, PART_SETTINGS, settings);
+    assert_says(s, "eop", "predictions from 2016-04-29", NULL);
+    assert_says(s, "dut1_s", "-0.127", "taken as 0");
+    glint_scenario_free(s);
+}
+END_TEST
+
+/* What a mask's file holds is a part of what tells runs apart. */
+START_TEST(test_observers_hash_knows_the_mask)
+{
+    char *hash[2];
+    for (int k = 0; k < 2; k++) {
+        write_file("mask.csv", k ? "azimuth_deg,elevation_deg\n0,5\n" : MASK);
+        glint_scenario *s = read_with(SOUND, PART_OBSERVER, SITE "horizon = \"mask.csv\"\n");
+        hash[k] = fact_of(s, "scenario_hash");
+        glint_scenario_free(s);
+    }
+    ck_assert_str_ne(hash[0], hash[1]);
+    free(hash[0]);
+    free(hash[1]);
+}
+END_TEST
+
 /* The total eclipse of 8 April 2024 where it was greatest: 25.3 N, 104.1 W, 18:18:29 TD, 4 min 28 s
  * of totality (Espenak, NASA eclipse predictions, from JPL's ephemerides and a Moon 0.05 %
  * smaller). 25 km of the Moon's place move the middle by up to 40 s and change the duration by 3 %;
@@ -698,6 +798,9 @@ int main(void)
     tcase_add_test(tc, test_observers_mask_cut_anywhere_is_an_error_or_what_was_before);
     tcase_add_test(tc, test_observers_moon_is_where_another_program_sees_it);
     tcase_add_test(tc, test_observers_moon_shadow_dims_a_geostationary_satellite);
+    tcase_add_test(tc, test_observers_moon_shadow_is_met_by_a_run_on_its_way);
+    tcase_add_test(tc, test_observers_header_says_what_is_assumed);
+    tcase_add_test(tc, test_observers_hash_knows_the_mask);
     tcase_add_test(tc, test_observers_moon_makes_the_eclipse_of_april_2024);
     suite_add_tcase(suite, tc);
     return run_suite(suite);
