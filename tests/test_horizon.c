@@ -28,7 +28,7 @@ START_TEST(test_horizon_without_a_mask_is_level)
         assert_near(limit_deg(&h, azimuth), 7, ROUNDING);
     assert_near(h.lowest / DEG, 7, ROUNDING);
     assert_near(h.highest / DEG, 7, ROUNDING);
-    assert_near(horizon_spacing(&h), TWO_PI, 0);
+    assert_near(horizon_room(&h, 1), TWO_PI, 0);
     horizon_free(&h);
 }
 END_TEST
@@ -45,7 +45,12 @@ START_TEST(test_horizon_is_linear_between_points_and_through_north)
     assert_near(limit_deg(&h, 359.999999), 15 - 1e-6 * 5 / 90, 1e-9);
     assert_near(h.lowest / DEG, 0, ROUNDING);
     assert_near(h.highest / DEG, 20, ROUNDING);
-    assert_near(horizon_spacing(&h) / DEG, 90, ROUNDING);
+    /* on a piece of 90 deg beside one of 180 deg, which goes through north */
+    assert_near(horizon_room(&h, 130 * DEG) / DEG, 40, ROUNDING);
+    assert_near(horizon_room(&h, 91 * DEG) / DEG, 22.5, ROUNDING);
+    assert_near(horizon_room(&h, 359 * DEG) / DEG, 89, ROUNDING);
+    assert_near(horizon_room(&h, 0) / DEG, 90, ROUNDING);
+    assert_near(horizon_room(&h, 88 * DEG) / DEG, 22.5, ROUNDING);
     horizon_free(&h);
 }
 END_TEST
