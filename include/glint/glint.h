@@ -189,9 +189,12 @@ typedef struct glint_summary {
     double percent_brighter_6, percent_brighter_7;         /* of those; first band */
     double sunlit_s, visible_s; /* sunlit_fraction > 0; that, and above the horizon */
     double brightest_t_s;       /* of the brightest row */
-    glint_utc brightest_utc;    /* not set in [geometry] runs */
+    const char
+        *brightest_observer; /* the name of the one who sees it; borrowed from the scenario */
+    glint_utc brightest_utc; /* not set in [geometry] runs */
     bool has_utc;
-    const char *band; /* the first, borrowed from the curve */
+    size_t n_observers; /* of the run */
+    const char *band;   /* the first, borrowed from the curve */
 } glint_summary;
 
 /* Called after each block with the number of steps done; return false to stop the run, which then
@@ -312,7 +315,8 @@ typedef struct glint_ephemeris_row {
     glint_utc utc;
     size_t observer;           /* its number in the scenario, from 0 */
     const char *observer_name; /* borrowed from the scenario; "" where not said */
-    double ra_rad, dec_rad;    /* from the observer along the light path, ICRS axes; 0..2 pi,
+    double ra_rad,
+        dec_rad;               /* from the observer along the light path, ICRS axes; 0..2 pi,
                                   -pi/2..pi/2.    Stars are displaced by annual aberration against it */
     double angular_rate_rad_s; /* against the stars */
     double azimuth_rad, elevation_rad; /* of a site, as glint_row has them; else 0 */

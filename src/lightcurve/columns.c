@@ -139,6 +139,15 @@ void column_set_free(column_set *set)
     *set = (column_set){0};
 }
 
+/* What only a site sees, rad. */
+static double site_angle(column_kind kind, const glint_row *row)
+{
+    if (kind == COLUMN_AZIMUTH) return row->azimuth_rad;
+    if (kind == COLUMN_ELEVATION) return row->elevation_rad;
+    if (kind == COLUMN_SUN_ELEVATION) return row->sun_elevation_rad;
+    return kind == COLUMN_MOON_AZIMUTH ? row->moon_azimuth_rad : row->moon_elevation_rad;
+}
+
 bool column_value(const column_set *set, const glint_row *row, size_t column, double *value)
 {
     const int i = set->indices[column];
@@ -166,23 +175,15 @@ bool column_value(const column_set *set, const glint_row *row, size_t column, do
         *value = row->sunlit_fraction;
         return true;
     case COLUMN_AZIMUTH:
-        *value = row->azimuth_rad / DEG;
-        return row->has_site;
     case COLUMN_ELEVATION:
-        *value = row->elevation_rad / DEG;
-        return row->has_site;
     case COLUMN_SUN_ELEVATION:
-        *value = row->sun_elevation_rad / DEG;
+    case COLUMN_MOON_AZIMUTH:
+    case COLUMN_MOON_ELEVATION:
+        *value = site_angle(set->kinds[column], row) / DEG;
         return row->has_site;
     case COLUMN_AIRMASS:
         *value = row->airmass;
         return row->airmass > 0;
-    case COLUMN_MOON_AZIMUTH:
-        *value = row->moon_azimuth_rad / DEG;
-        return row->has_site;
-    case COLUMN_MOON_ELEVATION:
-        *value = row->moon_elevation_rad / DEG;
-        return row->has_site;
     case COLUMN_MOON_SEPARATION:
         *value = row->moon_separation_rad / DEG;
         return true;

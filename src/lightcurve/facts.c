@@ -171,8 +171,8 @@ static void describe_site(const scenario_observer *o, text *out)
                     o->horizon.highest / DEG);
     if (o->air.on)
         text_printf(out,
-                    "; elevations with refraction (Bennett 1982; %.6g hPa, %.4g C; none below 0 "
-                    "deg but that of the horizon)",
+                    "; elevations with refraction (Bennett 1982; %.6g hPa, %.4g C; below 0 deg "
+                    "as at 0 deg)",
                     o->air.pressure_hpa, o->air.temperature_c);
 }
 
@@ -190,7 +190,7 @@ char *fact_observer(const glint_scenario *s, const scenario_observer *o)
         const double *d = o->direction;
         text_printf(&out, "always %g km in the direction (%.6g, %.6g, %.6g) of the %s",
                     o->range_m * 1e-3, d[0], d[1], d[2],
-                    o->in_body ? "body" : "axes of GCRS, seen past everything");
+                    o->in_body ? "body, seen past everything" : "frame GCRS, seen past everything");
     }
     return out.data;
 }
@@ -241,7 +241,7 @@ static void add_orientation(const glint_scenario *s, fact_list *out)
     eop_span(s->eop, &first, &last, &predicted);
     write_date(predicted, since);
     write_date(last, tt_end);
-    add(out, "dut1_s", "%s at the start (UT1-UTC), then as in eop", dut1);
+    add(out, "dut1_s", "%.7f at the start (UT1-UTC), then as in eop", s->clock.dut1_s);
     add(out, "polar_motion", "as in eop");
     add(out, "eop", "%s (%s%s), linear between its days; %s%s", s->eop_name, eop_format(s->eop),
         string_equal(eop_format(s->eop), "C04") ? "" : ", Bulletin A",

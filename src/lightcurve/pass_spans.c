@@ -9,8 +9,8 @@
  * gaps in a pass.
  *
  * With a mask there are two cones, those of its lowest and its highest point: outside them, the
- * same holds. Steps are then short against the mask's points, too, so that the azimuth passes a
- * small part of one straight piece of it within a step. */
+ * same holds. Steps are then so short that the azimuth stays on one straight piece of the mask, or
+ * passes its end by a small part of a piece. */
 #include "base/constants.h"
 #include "base/vec.h"
 #include "lightcurve/pass_parts.h"
@@ -90,15 +90,19 @@ static double angle_to_cone(const scenario_observer *site, double elevation)
 }
 
 /* A mask has corners: its margin's rate is a difference over a time that is short against them. */
-static glint_status mask_look(watch *w, const sighting *seen, double elevation, look *out,
-                              glint_error *error)
+static glint_status mask_look(watch *w, const sighting *seen, double azimuth, double elevation,
+                              look *out, glint_error *error)
 {
+    static const double TURN = 0.02, LEAST_COSINE = 1e-3;
     static const double PART = 0.25, SHORTEST_S = 1e-3, HALF_MOST_S = 0.1;
     double velocity[3], before, after;
     ground_velocity(seen, velocity);
-    const double turning = norm3(velocity) / (seen->range_m * fmax(cos(elevation), 1e-3));
+    /* within a step the elevation changes by TURN at most, and the azimuth runs the faster the
+     * higher it is */
+    const double turning =
+        norm3(velocity) / (seen->range_m * fmax(cos(elevation) - TURN, LEAST_COSINE));
     const double piece_s =
-        PART * horizon_spacing(&w->viewer.observer->horizon) / fmax(turning, 1e-9);
+        horizon_room(&w->viewer.observer->horizon, azimuth) / fmax(turning, 1e-9);
     out->fine_s = fmax(fmin(out->fine_s, piece_s), SHORTEST_S);
     const double half_s = fmin(HALF_MOST_S, PART * out->fine_s);
     glint_status status = margin_at(w, out->t_s - half_s, &before, error);
@@ -129,7 +133,7 @@ static glint_status look_at(watch *w, double t_s, look *out, glint_error *error)
     out->safe_s = SAFETY * reach_s(&seen, speed, distance_m);
     out->fine_s =
         fmin(FINE * seen.range_m / fmax(speed, 1e-3), FINE_OF_PERIOD * pass_period_s(&seen));
-    return site->horizon.n > 0 ? mask_look(w, &seen, elevation, out, error) : GLINT_OK;
+    return site->horizon.n > 0 ? mask_look(w, &seen, azimuth, elevation, out, error) : GLINT_OK;
 }
 
 /* The sine of the elevation: smooth at the zenith, too. */

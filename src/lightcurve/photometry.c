@@ -56,6 +56,27 @@ static unsigned flags_of(const glint_scenario *s, const tile_geometry *g, int k,
     return flags;
 }
 
+/* What a row says of time, places and directions; the rest of it is 0. */
+static void fill_place(const glint_scenario *s, const tile_geometry *g, int k, glint_row *out)
+{
+    *out = (glint_row){.t_s = g->t_s[k],
+                       .range_m = g->range_m[k],
+                       .phase_angle_rad = g->phase_angle[k],
+                       .sunlit_fraction = g->sunlit[k],
+                       .azimuth_rad = g->azimuth[k],
+                       .elevation_rad = g->elevation[k],
+                       .sun_elevation_rad = g->sun_elevation[k],
+                       .height_m = g->height_m[k],
+                       .has_site = g->who && g->who->kind == OBSERVER_SITE,
+                       .observer = g->who ? g->who->name : ""};
+    if (!s->has_geometry) run_clock_utc(&s->clock, g->t_s[k], &out->utc);
+    if (!s->moon_columns) return;
+    out->moon_azimuth_rad = g->moon_azimuth[k];
+    out->moon_elevation_rad = g->moon_elevation[k];
+    out->moon_separation_rad = g->moon_separation[k];
+    out->moon_illuminated = g->moon_illuminated[k];
+}
+
 void photometry_fill(const glint_scenario *s, const tile_geometry *g, const double *x,
                      const photometry_rows *out)
 {
@@ -85,28 +106,12 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
                 fill_shares(m, x, k, total, material, component);
         }
         glint_row *r = &out->rows[k];
-        *r = (glint_row){.t_s = g->t_s[k],
-                         .range_m = g->range_m[k],
-                         .phase_angle_rad = g->phase_angle[k],
-                         .sunlit_fraction = g->sunlit[k],
-                         .azimuth_rad = g->azimuth[k],
-                         .elevation_rad = g->elevation[k],
-                         .sun_elevation_rad = g->sun_elevation[k],
-                         .airmass = airmass,
-                         .height_m = g->height_m[k],
-                         .has_site = at_site,
-                         .observer = g->who ? g->who->name : "",
-                         .flux_ratio = flux,
-                         .magnitude = magnitude,
-                         .share_material = material,
-                         .share_component = component};
-        if (!s->has_geometry) run_clock_utc(&s->clock, g->t_s[k], &r->utc);
-        if (s->moon_columns) {
-            r->moon_azimuth_rad = g->moon_azimuth[k];
-            r->moon_elevation_rad = g->moon_elevation[k];
-            r->moon_separation_rad = g->moon_separation[k];
-            r->moon_illuminated = g->moon_illuminated[k];
-        }
+        fill_place(s, g, k, r);
+        r->airmass = airmass;
+        r->flux_ratio = flux;
+        r->magnitude = magnitude;
+        r->share_material = material;
+        r->share_component = component;
         r->flags = flags_of(s, g, k, bright);
     }
 }

@@ -181,6 +181,32 @@ double sighting_sun_elevation(const glint_scenario *s, const scenario_observer *
     return elevation;
 }
 
+/* How long before and after a moment the Moon surely stays away from the Sun, as the satellite sees
+ * them. The two discs are less than 5.3 deg in radius together while the Moon is farther than
+ * 20 000 km; nothing on an orbit about the Earth moves faster than 12 km/s, the Moon 1.1 km/s, and
+ * the Sun's direction not by more than a degree in the longest time that comes out. */
+static double moon_away_s(const double moon_m[3], const double sun[3])
+{
+    static const double NEAR = 6.5 * DEG, NEAR_M = 2e7, SPEED_M_S = 13.5e3;
+    const double distance_m = norm3(moon_m), free = angle3(moon_m, sun) - NEAR;
+    if (!(free > 0 && distance_m > 2 * NEAR_M)) return 0;
+    return (distance_m - NEAR_M) * sin(fmin(free, 0.5 * PI)) / SPEED_M_S;
+}
+
+/* Visible fraction of the solar disc past the Moon, 1 nearly always. */
+static double past_moon(const glint_scenario *s, viewer *v, const sighting *seen)
+{
+    const moment *m = &seen->moment;
+    double moon[3];
+    if (m->t_s > v->no_moon_from_s && m->t_s < v->no_moon_to_s) return 1;
+    moon_position(&s->clock, m->t_s, &v->moon, moon);
+    sub3(moon, m->r_m, moon);
+    const double away_s = moon_away_s(moon, m->sun);
+    v->no_moon_from_s = m->t_s - away_s;
+    v->no_moon_to_s = m->t_s + away_s;
+    return eclipse_moon_fraction(moon, m->sun, seen->sun_distance_m);
+}
+
 double sighting_sunlit(const glint_scenario *s, viewer *v, const sighting *seen, bool *moon_covers)
 {
     const moment *m = &seen->moment;
@@ -188,12 +214,9 @@ double sighting_sunlit(const glint_scenario *s, viewer *v, const sighting *seen,
         eclipse_sunlit_fraction(m->r_m, m->sun, seen->sun_distance_m, m->itrs_gcrs + 6);
     if (moon_covers) *moon_covers = false;
     if (!(past_earth > 0)) return past_earth;
-    double moon[3];
-    moon_position(&s->clock, m->t_s, &v->moon, moon);
-    sub3(moon, m->r_m, moon);
-    const double past_moon = eclipse_moon_fraction(moon, m->sun, seen->sun_distance_m);
-    if (moon_covers) *moon_covers = past_moon < 1;
-    return past_earth * past_moon;
+    const double beside_moon = past_moon(s, v, seen);
+    if (moon_covers) *moon_covers = beside_moon < 1;
+    return past_earth * beside_moon;
 }
 
 void sighting_moon(const glint_scenario *s, viewer *v, const sighting *seen, double t_s,

@@ -11,6 +11,8 @@ typedef struct viewer {
     const scenario_observer *observer; /* borrowed, of the scenario */
     orbit_cursor target, own;          /* of the satellite's orbit; of the observer's */
     moon_cursor moon;
+    double no_moon_from_s, no_moon_to_s; /* between these the Moon is far from the Sun, seen from
+                                            the satellite; TT s of emission */
 } viewer;
 
 /* Satellite as seen at reception time t_s: all in GCRS. */

@@ -218,6 +218,7 @@ static void judge_requirements(verification *v)
             deviate(v, r->where, "no row fits 'when', so the requirement says nothing");
             continue;
         }
+        const bool several = v->s->n_observers > 1;
         const double fraction = (double)t->met / (double)t->selected;
         if (fraction >= r->for_fraction) continue;
         char when[64];
@@ -229,9 +230,10 @@ static void judge_requirements(verification *v)
             snprintf(when, sizeof when, "t_s = %.9g", t->worst_row.t_s);
         deviate(v, r->where,
                 "%s is fainter than required in %.4g %% of %lld rows; expected %.4g %%; it breaks "
-                "its limit of %.3f most at %s with %.3f",
+                "its limit of %.3f most at %s%s%s with %.3f",
                 r->column, 100 * fraction, (long long)t->selected, 100 * r->for_fraction,
-                t->worst_limit, when, t->worst);
+                t->worst_limit, when, several ? " for " : "", several ? t->worst_row.observer : "",
+                t->worst);
     }
 }
 

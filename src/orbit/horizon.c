@@ -79,24 +79,43 @@ static int points_up_to(const horizon *h, double azimuth)
     return lo;
 }
 
+/* A straight piece of a mask: from point k to the next, whose azimuth is not below its own. */
+typedef struct piece {
+    double from, to;            /* azimuth, rad */
+    double elevation[2], width; /* at its ends; its width, rad */
+} piece;
+
+static piece piece_at(const horizon *h, int k)
+{
+    const horizon_point *a = &h->points[(k + h->n) % h->n], *b = &h->points[(k + 1) % h->n];
+    const double to = b->azimuth > a->azimuth ? b->azimuth : b->azimuth + TWO_PI;
+    return (piece){a->azimuth, to, {a->elevation, b->elevation}, to - a->azimuth};
+}
+
+/* Number of the piece that an azimuth lies on; it may have to go up by a turn to lie within. */
+static int piece_number(const horizon *h, double *azimuth)
+{
+    const int k = points_up_to(h, *azimuth) - 1;
+    if (k >= 0) return k;
+    *azimuth += TWO_PI;
+    return h->n - 1;
+}
+
 double horizon_limit(const horizon *h, double azimuth)
 {
     if (h->n == 0) return h->least;
-    const int after = points_up_to(h, azimuth);
-    const horizon_point *a = &h->points[after > 0 ? after - 1 : h->n - 1];
-    const horizon_point *b = &h->points[after < h->n ? after : 0];
-    const double from = after > 0 ? a->azimuth : a->azimuth - TWO_PI;
-    const double to = after < h->n ? b->azimuth : b->azimuth + TWO_PI;
-    const double part = (azimuth - from) / (to - from);
-    return fmax(h->least, a->elevation + part * (b->elevation - a->elevation));
+    const piece p = piece_at(h, piece_number(h, &azimuth));
+    const double part = (azimuth - p.from) / p.width;
+    return fmax(h->least, p.elevation[0] + part * (p.elevation[1] - p.elevation[0]));
 }
 
-double horizon_spacing(const horizon *h)
+double horizon_room(const horizon *h, double azimuth)
 {
-    double least = TWO_PI;
-    for (int i = 0; i < h->n && h->n > 1; i++) {
-        const double next = i + 1 < h->n ? h->points[i + 1].azimuth : h->points[0].azimuth + TWO_PI;
-        least = fmin(least, next - h->points[i].azimuth);
-    }
-    return least;
+    static const double PART = 0.25;
+    if (h->n < 2) return TWO_PI;
+    const int k = piece_number(h, &azimuth);
+    const piece p = piece_at(h, k);
+    const double narrowest =
+        fmin(p.width, fmin(piece_at(h, k - 1).width, piece_at(h, k + 1).width));
+    return fmax(PART * narrowest, fmin(azimuth - p.from, p.to - azimuth));
 }

@@ -28,7 +28,8 @@ void horizon_free(horizon *h);
 /* The elevation (rad) below which nothing is seen at an azimuth of 0..2 pi: linear between the
  * points, all around, and never below `least`. */
 double horizon_limit(const horizon *h, double azimuth);
-/* Smallest distance of two neighbouring points in azimuth, rad; 2 pi without a mask. */
-double horizon_spacing(const horizon *h);
+/* How far one may go in azimuth, either way, and be still on the same straight piece of the mask,
+ * or past its end by no more than a quarter of the narrowest of it and its neighbours; rad. */
+double horizon_room(const horizon *h, double azimuth);
 
 #endif

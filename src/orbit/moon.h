@@ -16,7 +16,7 @@ typedef struct moon_cursor {
 
 /* Geocentric position of the Moon, GCRS, m, geometric, t_s after the start of the clock. ERFA's
  * eraMoon98 (Meeus 1998: about 25 km, 14 arcsec) every half day and a cubic between, which is
- * within 0.3 km of it. cursor: NULL allowed. */
+ * within 0.4 km of it. cursor: NULL allowed. */
 void moon_position(const run_clock *clock, double t_s, moon_cursor *cursor, double moon_gcrs_m[3]);
 
 /* Illuminated fraction of the Moon's disc, seen from a point; moon_m, sun_m: from there. That of a

@@ -33,6 +33,7 @@ static void add_magnitude(summary_maker *m, const glint_row *row)
     if (s->bright_rows == 0 || mag < s->magnitude_min) {
         s->magnitude_min = mag;
         s->brightest_t_s = row->t_s;
+        s->brightest_observer = row->observer;
         s->brightest_utc = row->utc;
     }
     if (s->bright_rows == 0 || mag > s->magnitude_max) s->magnitude_max = mag;

@@ -224,6 +224,7 @@ glint_status glint_table_write(glint_curve *curve, const char *path, const char 
     if (!status && summary) {
         summary_finish(to.summary, summary);
         summary->band = glint_curve_band(curve);
+        summary->n_observers = glint_curve_observers(curve);
     }
     sinks_close(&to);
     return status;
