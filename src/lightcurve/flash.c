@@ -101,6 +101,13 @@ static const double MOST_TURN = 0.1, LONGEST_S = 600;
 /* Time over which rates are taken; shorter where that would be much of a turn. */
 static const double RATE_OVER_S = 0.01, RATE_OVER_TURN = 0.1;
 
+/* Another moment to take rates from: earlier, but not before the search begins, where attitudes may
+ * not be known. */
+static double beside(const flash_search *f, double t_s, double over_s)
+{
+    return t_s - over_s >= f->wanted->from_s ? t_s - over_s : t_s + over_s;
+}
+
 static double slow_rate(const sighting *a, const sighting *b, double over_s)
 {
     return (angle3(a->moment.observer, b->moment.observer) + angle3(a->moment.sun, b->moment.sun)) /
@@ -136,7 +143,7 @@ static glint_status find_rate(flash_search *f, double t_s, sighting *seen, doubl
         known = fmax(known, f->mirrors[k]->fastest_rad_s);
     const double over_s = fmin(RATE_OVER_S, RATE_OVER_TURN / fmax(known, 1e-12));
     sighting before;
-    glint_status status = turn_at(f, t_s - over_s, &before, body, error);
+    glint_status status = turn_at(f, beside(f, t_s, over_s), &before, body, error);
     if (status) return status;
     memcpy(f->before, f->wanted->component_gcrs, n_components * sizeof *f->before);
     status = turn_at(f, t_s, seen, body, error);
@@ -337,7 +344,7 @@ static glint_status best_phase(flash_search *f, double t_s, double *angle, doubl
                                glint_error *error)
 {
     const mirror *one = f->mirrors[0];
-    const double at_s[2] = {t_s - RATE_OVER_S, t_s};
+    const double at_s[2] = {beside(f, t_s, RATE_OVER_S), t_s};
     double pole[2][3], body[9];
     sighting seen[2];
     for (int k = 0; k < 2; k++) {
