@@ -215,7 +215,7 @@ static inline bool boxes_overlap(const box2 *a, const box2 *b)
 /* How points lie to the lines of a polygon: apart, when all are outside one line; covered, when
  * none is outside any. */
 CLONES static polygon_relation relate_to_lines(const point2 *points, int n,
-                                                     const polygon_lines *lines, int n_lines)
+                                               const polygon_lines *lines, int n_lines)
 {
     polygon_relation relation = POLYGON_COVERED;
     for (int l = 0; l < n_lines; l++) {

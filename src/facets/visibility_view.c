@@ -52,8 +52,8 @@ static void basis_along(const double z[3], double basis[9])
 }
 
 /* out = axis . vector for n vectors. */
-CLONES static void project(const double axis[3], const double *x, const double *y,
-                                 const double *z, int n, double *out)
+CLONES static void project(const double axis[3], const double *x, const double *y, const double *z,
+                           int n, double *out)
 {
     const double a = axis[0], b = axis[1], c = axis[2];
     for (int k = 0; k < n; k++)
@@ -224,7 +224,7 @@ typedef struct float_shaft {
 } float_shaft;
 
 CLONES static int walk(const plan_node *nodes, const view_node *boxes, const float_shaft *s,
-                             int root, int *stack, int *out)
+                       int root, int *stack, int *out)
 {
     int n = 0, n_stack = 1;
     stack[0] = root;

@@ -117,7 +117,7 @@ static void add_note(text *t, const glint_passes *of, const glint_pass_event *e)
         [GLINT_DARKNESS_BEGIN] = "the site is dark",
         [GLINT_DARKNESS_END] = "the site is light",
         [GLINT_FLASH] = "flash",
-        [GLINT_MORE_FLASHES] = "from here on flashes are left out: there are too many",
+        [GLINT_MORE_FLASHES] = "from here on flashes are left out: too many, or too long a search",
     };
     if ((size_t)e->kind >= sizeof WORDS / sizeof *WORDS || !WORDS[e->kind]) return;
     text_printf(t, "%12s", "");
