@@ -21,7 +21,8 @@ typedef struct pass_span_list {
     size_t n, capacity;
 } pass_span_list;
 
-/* Appends all spans over the watch's site within the scenario's time. Errors: of the orbit; GLINT_INTERNAL (memory). */
+/* Appends all spans over the watch's site within the scenario's time. Errors: of the orbit;
+ * GLINT_INTERNAL (memory). */
 glint_status pass_spans_find(watch *w, pass_span_list *out, glint_error *error);
 /* The highest moment of a span. */
 glint_status pass_culmination(watch *w, const pass_span *span, double *t_s, glint_error *error);
