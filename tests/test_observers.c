@@ -352,6 +352,44 @@ START_TEST(test_observers_several_make_one_table)
 }
 END_TEST
 
+/* The same of an ephemeris, in all its formats. */
+START_TEST(test_observers_several_make_one_ephemeris)
+{
+    static const glint_format FORMATS[] = {GLINT_FORMAT_CSV, GLINT_FORMAT_JSON, GLINT_FORMAT_TABLE};
+    glint_scenario *s = read_with(SOUND, PART_OBSERVER, THREE);
+    char *written[3];
+    for (size_t k = 0; k < 3; k++) {
+        glint_ephemeris *e;
+        const char *path = in_folder("ephemeris");
+        ck_assert_int_eq(glint_ephemeris_open(s, 2, &e, NULL), GLINT_OK);
+        ck_assert_int_eq(glint_ephemeris_length(e), 21);
+        ck_assert_int_eq(glint_ephemeris_write(e, FORMATS[k], path, NULL, NULL, NULL), GLINT_OK);
+        glint_ephemeris_close(e);
+        written[k] = read_bytes(path, NULL);
+    }
+    const char *path = write_file("ephemeris.csv", written[0]);
+    csv_table t = table_open(path);
+    ck_assert_int_eq(t.n_rows, 21);
+    for (long row = 0; row < t.n_rows; row++) {
+        ck_assert_str_eq(table_text(&t, row, "observer"), NAMES[row / 7]);
+        ck_assert_int_eq(table_text(&t, row, "elevation_deg")[0] == '\0', row / 7 == 1);
+        assert_near(table_number(&t, row, "t_s"), 10.0 * (double)(row % 7), 0);
+    }
+    csv_free(&t);
+    int azimuths = 0, geo = 0;
+    for (const char *c = written[1]; (c = strstr(c, "\"azimuth_deg\"")); c++)
+        azimuths++;
+    for (const char *c = written[1]; (c = strstr(c, "\"observer\": \"geo\"")); c++)
+        geo++;
+    ck_assert_int_eq(azimuths, 14);
+    ck_assert_int_eq(geo, 7);
+    ck_assert_ptr_nonnull(strstr(written[2], "  Vienna, Prater\n"));
+    for (size_t k = 0; k < 3; k++)
+        free(written[k]);
+    glint_scenario_free(s);
+}
+END_TEST
+
 START_TEST(test_observers_expectations_name_theirs)
 {
     const char *parts[N_PARTS];
@@ -832,6 +870,7 @@ int main(void)
     tcase_add_test(tc, test_observers_satellite_of_an_element_set_is_where_its_orbit_is);
     tcase_add_test(tc, test_observers_several_have_the_rows_of_each_alone);
     tcase_add_test(tc, test_observers_several_make_one_table);
+    tcase_add_test(tc, test_observers_several_make_one_ephemeris);
     tcase_add_test(tc, test_observers_expectations_name_theirs);
     tcase_add_test(tc, test_observers_level_mask_is_a_least_elevation);
     tcase_add_test(tc, test_observers_passes_over_a_skyline_agree_with_rows);
