@@ -236,6 +236,48 @@ START_TEST(test_observers_satellite_rates_are_differences_of_rows)
 }
 END_TEST
 
+/* Rows of an ephemeris of at most 2048 rows: their places in GCRS and ranges. */
+static size_t places_of(const glint_scenario *s, double (*r_m)[3], double *range_m)
+{
+    glint_ephemeris *e;
+    const glint_ephemeris_row *rows;
+    size_t n;
+    ck_assert_int_eq(glint_ephemeris_open(s, 1, &e, NULL), GLINT_OK);
+    ck_assert_int_eq(glint_ephemeris_next(e, &rows, &n, NULL), GLINT_OK);
+    for (size_t k = 0; k < n; k++) {
+        copy3(rows[k].r_gcrs_m, r_m[k]);
+        range_m[k] = rows[k].range_m;
+    }
+    glint_ephemeris_close(e);
+    return n;
+}
+
+/* An element set, which lives in TEME, looks at a geostationary satellite: the range is the
+ * distance between the places that each has as the target of a scenario. */
+START_TEST(test_observers_satellite_of_an_element_set_is_where_its_orbit_is)
+{
+    enum { N = 41 };
+    static const char TIME[] = "[time]\nstart = 2025-07-24T19:00:00Z\nduration_s = 2400\nstep_s = "
+                               "60\n";
+    static const char GEO[] = "[orbit]\ncircular = { geostationary_longitude_deg = 30 }\n";
+    static const char TLE[] = "tle = \"" TEST_DATA_DIR "/endtoend/iss.tle\"\n";
+    double geo_m[N][3], range_m[N], iss_m[N][3], unused[N], between[3];
+    char text[1024];
+    snprintf(text, sizeof text, "[observer.satellite]\n%s", TLE);
+    glint_scenario *s = read_three(PART_TIME, TIME, PART_ORBIT, GEO, PART_OBSERVER, text);
+    ck_assert_uint_eq(places_of(s, geo_m, range_m), N);
+    glint_scenario_free(s);
+    snprintf(text, sizeof text, "[orbit]\n%s", TLE);
+    s = read_three(PART_TIME, TIME, PART_SETTINGS, AT_ONCE, PART_ORBIT, text);
+    ck_assert_uint_eq(places_of(s, iss_m, unused), N);
+    glint_scenario_free(s);
+    for (int k = 0; k < N; k++) {
+        sub3(geo_m[k], iss_m[k], between);
+        assert_near(range_m[k], norm3(between), 1e-6);
+    }
+}
+END_TEST
+
 /* ------------------------------------------------------------ several at once */
 
 #define VIENNA_SITE "name = \"Vienna, Prater\"\nlatitude_deg = 48.2\nlongitude_deg = 16.37\n"
@@ -307,6 +349,44 @@ START_TEST(test_observers_several_make_one_table)
         ck_assert_str_ne(table_text(&t, row, "range_km"), "");
     }
     csv_free(&t);
+}
+END_TEST
+
+/* The same of an ephemeris, in all its formats. */
+START_TEST(test_observers_several_make_one_ephemeris)
+{
+    static const glint_format FORMATS[] = {GLINT_FORMAT_CSV, GLINT_FORMAT_JSON, GLINT_FORMAT_TABLE};
+    glint_scenario *s = read_with(SOUND, PART_OBSERVER, THREE);
+    char *written[3];
+    for (size_t k = 0; k < 3; k++) {
+        glint_ephemeris *e;
+        const char *path = in_folder("ephemeris");
+        ck_assert_int_eq(glint_ephemeris_open(s, 2, &e, NULL), GLINT_OK);
+        ck_assert_int_eq(glint_ephemeris_length(e), 21);
+        ck_assert_int_eq(glint_ephemeris_write(e, FORMATS[k], path, NULL, NULL, NULL), GLINT_OK);
+        glint_ephemeris_close(e);
+        written[k] = read_bytes(path, NULL);
+    }
+    const char *path = write_file("ephemeris.csv", written[0]);
+    csv_table t = table_open(path);
+    ck_assert_int_eq(t.n_rows, 21);
+    for (long row = 0; row < t.n_rows; row++) {
+        ck_assert_str_eq(table_text(&t, row, "observer"), NAMES[row / 7]);
+        ck_assert_int_eq(table_text(&t, row, "elevation_deg")[0] == '\0', row / 7 == 1);
+        assert_near(table_number(&t, row, "t_s"), 10.0 * (double)(row % 7), 0);
+    }
+    csv_free(&t);
+    int azimuths = 0, geo = 0;
+    for (const char *c = written[1]; (c = strstr(c, "\"azimuth_deg\"")); c++)
+        azimuths++;
+    for (const char *c = written[1]; (c = strstr(c, "\"observer\": \"geo\"")); c++)
+        geo++;
+    ck_assert_int_eq(azimuths, 14);
+    ck_assert_int_eq(geo, 7);
+    ck_assert_ptr_nonnull(strstr(written[2], "  Vienna, Prater\n"));
+    for (size_t k = 0; k < 3; k++)
+        free(written[k]);
+    glint_scenario_free(s);
 }
 END_TEST
 
@@ -787,8 +867,10 @@ int main(void)
     tcase_add_test(tc, test_observers_direction_of_the_body_sees_a_plate_in_closed_form);
     tcase_add_test(tc, test_observers_direction_lies_where_it_is_said);
     tcase_add_test(tc, test_observers_satellite_rates_are_differences_of_rows);
+    tcase_add_test(tc, test_observers_satellite_of_an_element_set_is_where_its_orbit_is);
     tcase_add_test(tc, test_observers_several_have_the_rows_of_each_alone);
     tcase_add_test(tc, test_observers_several_make_one_table);
+    tcase_add_test(tc, test_observers_several_make_one_ephemeris);
     tcase_add_test(tc, test_observers_expectations_name_theirs);
     tcase_add_test(tc, test_observers_level_mask_is_a_least_elevation);
     tcase_add_test(tc, test_observers_passes_over_a_skyline_agree_with_rows);
