@@ -1,6 +1,7 @@
 /* BRDF models against reference values, and the table of models. */
 #include "base/constants.h"
 #include "brdf/brdf.h"
+#include "brdf/sharpness.h"
 #include "table.h"
 
 /* ------------------------------------------------------------------ helpers */
@@ -446,6 +447,71 @@ START_TEST(test_abg_peak_and_unit_distance)
 }
 END_TEST
 
+/* ------------------------------------------------------------------- mirrors */
+
+static double mirrored(const double params[3], double theta_deg)
+{
+    const brdf_model *mirror = brdf_model_named("mirror");
+    double coef[BRDF_MAX_COEF];
+    prepare("mirror", params, coef);
+    return mirror->specular(coef, cos(theta_deg * DEG));
+}
+
+/* Without n the share holds at every incidence; g is 0 also in the mirror direction. */
+START_TEST(test_mirror_reflectance_without_index_is_its_share)
+{
+    const double params[] = {0.85, PARAM_NONE, PARAM_NONE};
+    for (double theta_deg = 0; theta_deg < 90; theta_deg += 7)
+        assert_near(mirrored(params, theta_deg), 0.85, 0);
+    const double angles[4] = {40, 0, 40, 180}, beside[4] = {40, 10, 20, 60};
+    assert_near(f_of("mirror", params, angles), 0, 0);
+    assert_near(f_of("mirror", params, beside), 0, 0);
+}
+END_TEST
+
+/* Glass: ((n-1)/(n+1))^2 at normal incidence; at Brewster's angle atan(n) nothing of the one
+ * polarisation, and ((n^2-1)/(n^2+1))^2 of the other. Aluminium at normal incidence:
+ * ((n-1)^2 + k^2)/((n+1)^2 + k^2). At grazing incidence all is reflected. */
+START_TEST(test_mirror_reflectance_with_index_is_fresnel)
+{
+    const double glass[] = {1, 1.5, PARAM_NONE}, half[] = {0.5, 1.5, PARAM_NONE};
+    const double metal[] = {1, 0.96, 6.69};
+    assert_rel(mirrored(glass, 0), 0.04, 1e-14);
+    assert_rel(mirrored(half, 0), 0.02, 1e-14);
+    const double brewster = 1.25 / 3.25;
+    assert_rel(mirrored(glass, atan(1.5) / DEG), 0.5 * brewster * brewster, 1e-14);
+    const double k2 = 6.69 * 6.69;
+    assert_rel(mirrored(metal, 0), (0.04 * 0.04 + k2) / (1.96 * 1.96 + k2), 1e-14);
+    assert_rel(mirrored(glass, 89.9999), 1, 1e-4);
+    assert_rel(mirrored(metal, 89.9999), 1, 1e-4);
+}
+END_TEST
+
+/* No tilt is too small to change what a mirror shows; without a weight it shows nothing. */
+START_TEST(test_mirror_is_sharper_than_any_lobe)
+{
+    brdf_lobe lobes[2] = {
+        {.model = brdf_model_named("mirror"), .weight = 1, .params = {1, PARAM_NONE, PARAM_NONE}},
+        {.model = brdf_model_named("lambert"), .weight = 1, .params = {0.5}}};
+    for (int k = 0; k < 2; k++)
+        ck_assert_int_eq(brdf_lobe_prepare(&lobes[k], NULL), GLINT_OK);
+    const brdf_material both = {.n_lobes = 2, .lobes = lobes};
+    assert_near(brdf_material_width(&both), 0, 0);
+    lobes[0].weight = 0;
+    ck_assert(brdf_material_width(&both) == HUGE_VAL);
+}
+END_TEST
+
+START_TEST(test_mirror_refuses_absorption_without_index)
+{
+    double coef[BRDF_MAX_COEF];
+    glint_error error;
+    const double params[] = {1, PARAM_NONE, 3};
+    ck_assert_int_eq(brdf_model_named("mirror")->prepare(params, coef, &error), GLINT_INPUT);
+    ck_assert_ptr_nonnull(strstr(error.message, "k without n"));
+}
+END_TEST
+
 /* ----------------------------------------------------------- Ward parameters */
 
 START_TEST(test_ward_wavelength_factor_divides_slopes)
@@ -559,6 +625,8 @@ START_TEST(test_brdf_public_table_lists_every_model)
             ck_assert(glint_brdf_parameter(k, (size_t)j, &param));
             ck_assert_ptr_eq(param.name, model->params[j].name);
             ck_assert(param.required == param_is_required(&model->params[j]));
+            ck_assert(param.min_open == ((model->params[j].flags & PARAM_MIN_OPEN) != 0));
+            ck_assert(param.max_open == ((model->params[j].flags & PARAM_MAX_OPEN) != 0));
             ck_assert_int_eq(param.dimensions, model->params[j].flags & PARAM_ROWS ? 2 : 0);
         }
         ck_assert(!glint_brdf_parameter(k, (size_t)model->n_params, &param));
@@ -610,6 +678,10 @@ int main(void)
     tcase_add_test(closed, test_brdf_diffuse_limits_are_lambert);
     tcase_add_test(closed, test_hapke_single_scattering_limit);
     tcase_add_test(closed, test_abg_peak_and_unit_distance);
+    tcase_add_test(closed, test_mirror_reflectance_without_index_is_its_share);
+    tcase_add_test(closed, test_mirror_reflectance_with_index_is_fresnel);
+    tcase_add_test(closed, test_mirror_is_sharper_than_any_lobe);
+    tcase_add_test(closed, test_mirror_refuses_absorption_without_index);
     tcase_add_test(closed, test_binomial_single_terms);
     tcase_add_test(closed, test_binomial_refuses_shapes_that_do_not_match);
     suite_add_tcase(suite, closed);

@@ -181,6 +181,10 @@ has "$err" "'glint run' needs SCENARIO"
 t 'two scenarios' 2 run plate.toml good.toml
 t 'no file to check' 2 check
 t 'no file to verify' 2 verify
+t 'the list of models' 0 brdf list
+empty "$err"
+has "$out" 'lambert: ' 'mirror: ' 'table: ' '    source: ' 'above 0 to 100' 'above -1 to below 1' \
+    '(rows)' required optional 'default 0'
 t 'a file too many' 2 brdf list plate.toml
 t 'a list without scenario takes no override' 2 brdf list --set a=1
 t 'threads in words' 2 run plate.toml --threads two
@@ -209,6 +213,8 @@ t 'the same table after --' 0 run -- plate.toml
 holds 'the same table' cmp -s table "$out"
 t 'an override' 0 run plate.toml --set 'photometry.bands=["V", "R"]'
 has "$out" mag_V, mag_R,
+t 'an override without a key' 2 run plate.toml --set '#=1'
+has "$err" "--set '#=1': there is no key; expected key=value"
 t 'two overrides' 0 run plate.toml --set 'photometry.bands=["R"]' --set geometry.range_km=2000
 has "$out" mag_R,
 lacks "$out" mag_V,
@@ -234,6 +240,17 @@ has "$err" 'rows       3'
 holds 'the same table' cmp -s table file.csv
 (umask 027 && "$glint" run -q plate.toml --output=private.csv)
 holds 'permissions follow the umask' [ "$(stat -c %a private.csv)" = 640 ]
+mkdir elsewhere
+ln -s elsewhere/new.csv dangling.csv
+ln -s dangling.csv chain.csv
+t 'a link to where nothing is' 0 run plate.toml -q -o chain.csv
+holds 'the links stay' [ -L chain.csv -a -L dangling.csv ]
+holds 'the file is written where they point to' cmp -s table elsewhere/new.csv
+ln -s loop.csv loop.csv
+t 'a link to itself' 3 run plate.toml -q -o loop.csv
+ln -s no/such/folder.csv lost.csv
+t 'a link into a folder that is not there' 3 run plate.toml -q -o lost.csv
+holds 'the link stays' [ -L lost.csv ]
 ln -s file.csv link.csv
 t 'a link' 0 run plate.toml -qolink.csv
 empty "$err"
@@ -308,6 +325,55 @@ empty "$err"
 t 'check goes on after a wrong file' 1 check broken.toml plate.toml absent.toml
 has "$out" plate.toml
 has "$err" broken.toml:1:1: absent.toml
+cat >moves.toml <<'END'
+[time]
+start = 2025-07-25T20:37:00Z
+duration_s = 60
+step_s = 10
+[observer]
+latitude_deg = 48.2
+longitude_deg = 16.37
+[orbit]
+circular = { height_km = 780, inclination_deg = 98.6, raan_deg = 80, argument_of_latitude_deg = 132 }
+[[attitude]]
+law = "table"
+file = "turn.csv"
+[[attitude]]
+from = 2025-07-25T20:37:20Z
+slew_s = 15
+law = "nadir"
+nadir = "geodetic"
+[satellite]
+model = "moves-model.toml"
+END
+cat >moves-model.toml <<'END'
+[materials.white]
+brdf = "lambert"
+rho = 0.5
+[[component]]
+name = "wing"
+hinge = { origin_m = [0, 1, 0], axis = [0, 1, 0], table = "angles.csv" }
+[[component.plate]]
+size_m = [1, 1]
+normal = [0, 0, 1]
+tangent = [1, 0, 0]
+material = "white"
+END
+printf 't_s,qw,qx,qy,qz\n0,1,0,0,0\n40,0.8,0,0,0.6\n' >turn.csv
+printf 'utc,angle_deg\n2025-07-25T20:37:00Z,0\n2025-07-25T20:38:00Z,90\n' >angles.csv
+t 'check of motions' 0 check moves.toml moves-model.toml
+has "$out" "attitude    table: CSV table 'turn.csv', 2 rows from 0 to 40 s" \
+    'from 20 s by a slew of 15 s to nadir, geodetic' 'by a table of 2 angles from 0 to 60 s' \
+    'by a table of 2 angles over 60 s'
+empty "$err"
+t 'run of motions' 0 run moves.toml
+has "$out" "# - attitude: \"table: CSV table 'turn.csv', 2 rows from 0 to 40 s\"" \
+    '# - attitude: "from 20 s by a slew of 15 s to nadir, geodetic"' '# - attitude_slews:' \
+    '# - attitude_tables:'
+t 'check of a table that is too short' 0 check moves.toml --set 'attitude.1={from=50,law="nadir"}'
+has "$err" 'the attitude table says nothing at 40 s from the start'
+t 'run beyond a table' 1 run moves.toml --set 'attitude.1={from=50,law="nadir"}'
+has "$err" 'says nothing at' 'it ends at 40 s'
 t 'verify' 0 verify good.toml
 lines "$out" 1
 has "$out" 'ok    good.toml: 2 expectations'
@@ -400,6 +466,21 @@ for words in '--incidence 0 --hemisphere 0' '--geometry angles.csv --dhr' '--dhr
     # shellcheck disable=SC2086
     t "ways to show that exclude each other: $words" 2 brdf show materials.toml $words
 done
+for words in '--incidence 0,0.26,0.52,0.79,1.05' '--incidence 0.5236' '--hemisphere 1.047'; do
+    # shellcheck disable=SC2086
+    t "angles that look like radians: $words" 2 brdf show materials.toml $words
+    has "$err" 'which look like radians; expected degrees, or --angles deg'
+    # shellcheck disable=SC2086
+    t "the same meant as degrees: $words" 0 brdf show materials.toml $words --step 45 --angles deg
+done
+t 'small angles in tenths' 0 brdf show materials.toml:white --incidence 0,0.5,1,1.5 --step 45
+t 'radians' 2 brdf show materials.toml --angles rad
+has "$err" "--angles has 'rad'"
+printf '%s\n' phi_i_deg,theta_i_deg,phi_r_deg,theta_r_deg 0,0.3,0,0.7 0,1.5,0,0.2 >small.csv
+t 'a file of angles that look like radians' 1 brdf show materials.toml:white --geometry small.csv
+has "$err" 'small.csv:3:3:' '1.5: these look like radians'
+t 'a file of small angles' 0 brdf show materials.toml:white --geometry small.csv --angles deg
+has "$out" white,1.5,0,0.2,0
 t 'a map too fine' 2 brdf show materials.toml --hemisphere 0 --step 0.1
 has "$err" 'the step is 0.1 deg'
 t 'curves in a folder that is not there' 3 brdf show materials.toml -o no/such/file.csv
@@ -448,11 +529,43 @@ t 'a fit of a slip' 2 brdf fit measured.csv --signed-zenith --model wrad
 has "$err" "there is no BRDF 'wrad'; did you mean 'ward'?"
 t 'a fit in gradians' 2 "${fit[@]}" --angles grad
 has "$err" "--angles has 'grad'; expected deg or rad"
+t 'a fit of a model of arrays' 2 brdf fit measured.csv --signed-zenith --model lambert,binomial
+has "$err" "'binomial' cannot be fitted: it takes more than single numbers"
+t 'a fit of a measured table' 2 brdf fit measured.csv --signed-zenith --model table
+has "$err" "'table' cannot be fitted"
+t 'a fit of a mirror' 2 brdf fit measured.csv --signed-zenith --model lambert+mirror
+has "$err" "'mirror' cannot be fitted: f is a delta function"
+awk -F, -v OFS=, 'NR > 1 { $1 *= 0.0174532925; $2 *= 0.0174532925 } 1' measured.csv >radians.csv
+t 'a fit to unsaid radians' 1 brdf fit radians.csv --signed-zenith --model lambert
+has "$err" 'radians.csv:2:10:' 'these look like radians' '--angles'
+t 'a fit to radians' 0 brdf fit radians.csv --signed-zenith --model lambert --angles rad
+t 'a fit to small degrees' 0 brdf fit radians.csv --signed-zenith --model lambert --angles deg
 t 'a fit beyond the horizon' 2 "${fit[@]}" --max-zenith 95
 t 'a fit to an absent file' 1 brdf fit absent.csv --model ward
 t 'a fit to unsigned angles' 1 brdf fit measured.csv --model ward
 has "$err" 'measured.csv:2:4:'
 t 'a picture of another kind' 2 "${fit[@]}" --plot fits.gif
+cat >panel.toml <<'END'
+[geometry]
+sweep = { phase_deg = [0, 85, 17], plane = "xz" }
+[materials.panel]
+brdf = "table"
+file = "measured.csv"
+signed_zenith = true
+[[component]]
+name = "c"
+[[component.plate]]
+size_m = [1, 1]
+normal = [0, 0, 1]
+tangent = [1, 0, 0]
+material = "panel"
+END
+t 'a run with a measured material' 0 run panel.toml
+has "$out" 'measured: "material panel in V: 81 rows of the plane of incidence'
+# the light comes from up to 85 deg, and was measured up to 80 deg
+has "$err" 'unmeasured panel: in 1 of 6 rows' 'the nearest measured values are taken'
+t 'the same quietly' 0 run panel.toml -q
+lacks "$err" unmeasured
 
 # ---------------------------------------------------------------- terminals
 
@@ -503,6 +616,12 @@ holds 'help topics complete' [ "$(complete_words glint help ver)" = 'verify ' ]
 holds 'files complete' [ "$(complete_words glint run plate.t)" = 'plate.toml ' ]
 holds 'output files complete' [ "$(complete_words glint run -o brok)" = 'broken.toml ' ]
 holds 'picture files complete' [ "$(complete_words glint run --plot brok)" = 'broken.toml ' ]
+holds 'models to fit complete' [ "$(complete_words glint brdf fit --model 'lambert,2*abg+ward-g')" = 'lambert,2*abg+ward-gmd ' ]
+holds 'what cannot be fitted does not complete' [ "$(complete_words glint brdf fit --model bino)" = ' ' ]
+holds 'models complete behind =' [ "$(complete_words glint brdf fit --model = ha)" = 'hapke ' ]
+holds 'the first column completes' [ "$(complete_words glint brdf fit --columns phi_)" = 'phi_i= phi_r= ' ]
+holds 'the next column completes' [ "$(complete_words glint brdf fit --columns theta_i = 1,theta_r = 2,f)" = '2,f= ' ]
+holds 'data complete behind columns' [ "$(complete_words glint brdf fit --columns f = 5 measured.c)" = 'measured.csv ' ]
 holds 'angles do not complete' [ "$(complete_words glint brdf show --incidence '')" = ' ' ]
 
 # ------------------------------------------------- the table, as others read it

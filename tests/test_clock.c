@@ -65,6 +65,11 @@ START_TEST(test_clock_parse_accepts_forms)
         {"2100-12-31T23:59:59Z", 2100, 12, 31, 23, 59, 59.0},
         {"2016-12-31T23:59:60Z", 2016, 12, 31, 23, 59, 60.0},
         {"2016-12-31T23:59:60.999999Z", 2016, 12, 31, 23, 59, 60.999999},
+        {"2025-205T19:10:00Z", 2025, 7, 24, 19, 10, 0.0},
+        {"2024-060", 2024, 2, 29, 0, 0, 0.0},
+        {"2023-060", 2023, 3, 1, 0, 0, 0.0},
+        {"2024-366T01:02:03.5", 2024, 12, 31, 1, 2, 3.5},
+        {"2016-366T23:59:60Z", 2016, 12, 31, 23, 59, 60.0},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const utc_time utc = parsed(cases[k].string);
@@ -160,6 +165,11 @@ START_TEST(test_clock_parse_names_what_does_not_exist)
         {"2016-12-31T23:59:60+01:00", "only at 23:59 UTC"},
         {"2025-07-24T23:59:60Z", "no leap second ends that day"},
         {"2015-12-31T23:59:60Z", "no leap second ends that day"},
+        {"2025-000", "has 365 days"},
+        {"2025-366", "has 365 days"},
+        {"2024-367T00:00:00", "has 366 days"},
+        {"1971-365", "expected 1972 to 2100"},
+        {"9999-001", "expected 1972 to 2100"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         utc_time utc;
@@ -170,6 +180,32 @@ START_TEST(test_clock_parse_names_what_does_not_exist)
                       cases[k].string, error.message);
         ck_assert(utc_parse(cases[k].string, PLACE_NONE, &utc, NULL) == GLINT_INPUT);
     }
+}
+END_TEST
+
+START_TEST(test_clock_parse_worded_reads_named_months)
+{
+    static const char *const months[] = {"Jan", "feb", "MAR", "Apr", "May", "Jun",
+                                         "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+    static const char *const wrong[] = {"",
+                                        "24 Jul 2025",
+                                        "24 July 2025 00:00:00",
+                                        "24 Foo 2025 00:00:00",
+                                        "32 Jul 2025 00:00:00",
+                                        "24 Jul 2025 25:00:00",
+                                        "24 Jul 2025 00:00:00 UTCG",
+                                        "24 ulA 2025 00:00:00",
+                                        "2025-07-24T00:00:00"};
+    utc_time utc;
+    for (int k = 0; k < 12; k++) {
+        char string[64];
+        snprintf(string, sizeof string, "%d %s 2024 19:10:00.25", k + 1, months[k]);
+        ck_assert_int_eq(utc_parse_worded(string, PLACE_NONE, &utc, NULL), GLINT_OK);
+        assert_utc(&utc, 2024, k + 1, k + 1, 19, 10, 0.25);
+    }
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++)
+        ck_assert_msg(utc_parse_worded(wrong[k], PLACE_NONE, &utc, NULL) == GLINT_INPUT, "'%s'",
+                      wrong[k]);
 }
 END_TEST
 
@@ -196,6 +232,81 @@ START_TEST(test_clock_parse_keeps_long_decimals_in_their_second)
     assert_near(utc.second, 60.0, 1e-14);
     utc = parsed("2016-12-31T23:59:60.99999999999999999999999999");
     ck_assert(utc.second < 61.0);
+}
+END_TEST
+
+/* -------------------------------------------------------------- other scales */
+
+static double seconds_from(const char *string, time_scale scale, const double from_jd[2])
+{
+    double tt_jd[2];
+    glint_error error = {0};
+    ck_assert_msg(time_parse(string, scale, PLACE_NONE, tt_jd, &error) == GLINT_OK, "'%s': %s",
+                  string, error.message);
+    return jd_difference_s(tt_jd, from_jd);
+}
+
+/* One moment in every scale: TAI-UTC is 37 s in 2025, TT-TAI 32.184 s, TAI-GPS 19 s. */
+START_TEST(test_clock_time_parse_reads_one_moment_in_all_scales)
+{
+    const double rounding_s = 2e-11; /* of a day's fraction */
+    double utc_jd[2];
+    const utc_time utc = parsed("2025-07-24T19:10:00Z");
+    utc_to_tt(&utc, utc_jd, NULL, NULL);
+    assert_near(seconds_from("2025-205T19:10:00", SCALE_UTC, utc_jd), 0.0, 0.0);
+    assert_near(seconds_from("2025-07-24T19:10:37", SCALE_TAI, utc_jd), 0.0, rounding_s);
+    assert_near(seconds_from("2025-07-24T19:11:09.184", SCALE_TT, utc_jd), 0.0, rounding_s);
+    assert_near(seconds_from("2025-07-24T19:10:18Z", SCALE_GPS, utc_jd), 0.0, rounding_s);
+    /* TDB-TT = 0.001657 s sin g with g = 357.53 deg + 0.9856003 deg a day from J2000.0: the
+     * Astronomical Almanac's approximation, good to 3e-5 s; 9336.3 d give g = 199.3 deg */
+    const double g = (357.53 + 0.9856003 * 9336.3) * DEG;
+    assert_near(seconds_from("2025-07-24T19:11:09.184", SCALE_TDB, utc_jd), -0.001657 * sin(g),
+                5e-5);
+}
+END_TEST
+
+START_TEST(test_clock_time_parse_refuses_what_a_scale_has_not)
+{
+    static const char *const wrong[] = {"2016-12-31T23:59:60", "2025-07-24T19:10:00+01:00",
+                                        "1971-12-31",          "2101-001",
+                                        "2025-02-29",          "now"};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        double tt_jd[2];
+        glint_error error = {0};
+        ck_assert_msg(time_parse(wrong[k], SCALE_TAI, (place){"x.oem", 3, 4}, tt_jd, &error) ==
+                          GLINT_INPUT,
+                      "'%s'", wrong[k]);
+        ck_assert_int_eq(error.column, 4);
+    }
+}
+END_TEST
+
+START_TEST(test_clock_time_scale_find_knows_names)
+{
+    time_scale scale;
+    glint_error error = {0};
+    for (int k = SCALE_UTC; k <= SCALE_GPS; k++) {
+        ck_assert_int_eq(time_scale_find(time_scale_name((time_scale)k), PLACE_NONE, &scale, NULL),
+                         GLINT_OK);
+        ck_assert_int_eq(scale, k);
+    }
+    ck_assert_int_eq(time_scale_find("tdt", PLACE_NONE, &scale, NULL), GLINT_OK);
+    ck_assert_int_eq(scale, SCALE_TT);
+    ck_assert_int_eq(time_scale_find("UT1", PLACE_NONE, &scale, &error), GLINT_INPUT);
+    ck_assert_ptr_nonnull(strstr(error.message, "turns of the Earth"));
+    ck_assert_int_eq(time_scale_find("SCLK", PLACE_NONE, &scale, &error), GLINT_INPUT);
+    ck_assert_ptr_nonnull(strstr(error.message, "'SCLK'"));
+}
+END_TEST
+
+START_TEST(test_clock_tt_write_utc_names_leap_second)
+{
+    char out[UTC_TEXT_SIZE + 1] = "";
+    double tt_jd[2];
+    const utc_time utc = parsed("2016-12-31T23:59:60.25Z");
+    utc_to_tt(&utc, tt_jd, NULL, NULL);
+    tt_write_utc(tt_jd, out);
+    ck_assert_str_eq(out, "2016-12-31T23:59:60.250000Z");
 }
 END_TEST
 
@@ -425,8 +536,13 @@ int main(void)
     tcase_add_test(tcase, test_clock_parse_takes_offsets_off);
     tcase_add_test(tcase, test_clock_parse_refuses_other_forms);
     tcase_add_test(tcase, test_clock_parse_names_what_does_not_exist);
+    tcase_add_test(tcase, test_clock_parse_worded_reads_named_months);
     tcase_add_test(tcase, test_clock_check_refuses_fields_out_of_range);
     tcase_add_test(tcase, test_clock_parse_keeps_long_decimals_in_their_second);
+    tcase_add_test(tcase, test_clock_time_parse_reads_one_moment_in_all_scales);
+    tcase_add_test(tcase, test_clock_time_parse_refuses_what_a_scale_has_not);
+    tcase_add_test(tcase, test_clock_time_scale_find_knows_names);
+    tcase_add_test(tcase, test_clock_tt_write_utc_names_leap_second);
     tcase_add_test(tcase, test_clock_check_knows_every_leap_second);
     tcase_add_test(tcase, test_clock_run_counts_every_leap_second);
     tcase_add_test(tcase, test_clock_run_spans_leap_second);

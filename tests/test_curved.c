@@ -62,7 +62,7 @@ static void sums_of(const bench *b, double (*sun)[3], double (*observer)[3], dou
             light.i[j][k] = sun[k][j], light.r[j][k] = observer[k][j];
     brdf_light_finish(&light);
     ck_assert_int_eq(b->model.n_spans, 1);
-    model_sum(&b->model, &light, NULL, x);
+    model_sum(&b->model, &light, NULL, NULL, x);
 }
 
 /* --- directions --- */

@@ -286,6 +286,31 @@ END_TEST
 
 /* --------------------------------------------------------------------- limits */
 
+/* A mirror reflects its share, whatever else the sum holds, and counts for the energy. */
+START_TEST(test_dhr_of_mirrors_is_that_of_the_mirror_direction)
+{
+    const brdf_model *mirror = brdf_model_named("mirror"), *lambert = brdf_model_named("lambert");
+    for (int k = 0; k < N_ANGLES; k++)
+        assert_near(
+            dhr_of("mirror", (double[]){0.7, PARAM_NONE, PARAM_NONE}, angles_deg[k], 20, 1e-12),
+            0.7, 0);
+    assert_rel(dhr_of("mirror", (double[]){1, 1.5, PARAM_NONE}, 0, 0, 1e-12), 0.04, 1e-14);
+    brdf_lobe lobes[2] = {{.model = mirror, .weight = 0.5, .params = {0.8, PARAM_NONE, PARAM_NONE}},
+                          {.model = lambert, .weight = 2, .params = {0.1}}};
+    for (int k = 0; k < 2; k++)
+        ck_assert_int_eq(brdf_lobe_prepare(&lobes[k], NULL), GLINT_OK);
+    const brdf_material sum = {.n_lobes = 2, .lobes = lobes};
+    double dhr, bound;
+    ck_assert_int_eq(brdf_dhr(&sum, 0.5, 0, 1e-12, &dhr, &bound, NULL), GLINT_OK);
+    assert_rel(dhr, 0.5 * 0.8 + 2 * 0.1, 1e-12);
+    brdf_energy worst;
+    ck_assert(!brdf_energy_gain(&sum, &worst));
+    lobes[0].weight = 1.1; /* 0.88 + 0.2 */
+    ck_assert(brdf_energy_gain(&sum, &worst));
+    assert_rel(worst.dhr, 1.08, 1e-6);
+}
+END_TEST
+
 START_TEST(test_dhr_refuses_incidence_out_of_range)
 {
     static const double bad[] = {-0.1, PI / 2, 2.0, NAN, INFINITY};
@@ -374,6 +399,7 @@ int main(void)
     tcase_add_test(closed, test_dhr_of_five_parameter_diffuse_and_of_oren_nayar);
     tcase_add_test(closed, test_dhr_of_narrow_ward_lobes);
     tcase_add_test(closed, test_dhr_of_smooth_ggx_is_fresnel);
+    tcase_add_test(closed, test_dhr_of_mirrors_is_that_of_the_mirror_direction);
     suite_add_tcase(suite, closed);
     TCase *properties = tcase_create("properties");
     tcase_set_timeout(properties, 120);

@@ -263,15 +263,17 @@ described '`[time]`' "$iss" "time.$q"
 described '`[observer]`' "$iss" "observer.$q" "observer={satellite={},$q}" \
     "observer={direction={},$q}" "observer.refraction={$q}" "observer={direction={$q}}" \
     "observer={direction={frame=\"gcrs\",ra_deg=1,dec_deg=1,$q}}"
-described '`[orbit]`' "$iss" "orbit.$q" "orbit={tle_lines=[\"\",\"\"],$q}" "orbit={kepler={$q}}" \
-    "orbit={circular={$q}}" "orbit={circular={geostationary_longitude_deg=0,$q}}"
+described '`[orbit]`' "$iss" "orbit.$q" "orbit={tle_lines=[\"\",\"\"],$q}" "orbit={oem=\"\",$q}" \
+    "orbit={stk=\"\",$q}" "orbit={sp3=\"\",$q}" \
+    "orbit={kepler={$q}}" "orbit={circular={$q}}" \
+    "orbit={circular={geostationary_longitude_deg=0,$q}}"
 laws=()
 for law in $(glint check -q "$iss" --set "attitude={law=\"$nobody\"}" 2>&1 |
     sed -n 's/.*; expected one of: //p' | tr -d ','); do
     laws+=("attitude={law=\"$law\",$q}")
 done
 described '`[attitude]`' "$iss" "${laws[@]}" \
-    "attitude={law=\"nadir\",offset_deg={axis=[1,0,0],angle=1,$q}}"
+    "attitude={law=\"nadir\",offset_deg={axis=[1,0,0],angle=1,$q}}" "attitude=[{law=\"nadir\",$q}]"
 described '`[satellite]`' "$iss" "satellite.$q"
 described '`[corrections]`' "$iss" "corrections.$q"
 described '`[output]`' "$iss" "output.$q"
@@ -279,7 +281,8 @@ described '`[geometry]`' "$given" "geometry.$q" "geometry.sweep.$q" "geometry={r
 described '`[[expect]]`' "$given" "expect.0.$q"
 described '`[expect_table]`' "$given" "expect_table={file=\"\",$q}"
 described '`[[require]]`' "$given" "require=[{$q}]"
-described 'Hinges' "$given" "component.0.hinge={$q}" "component.0.hinge={track=\"sun\",$q}"
+described 'Hinges' "$given" "component.0.hinge={$q}" "component.0.hinge={track=\"sun\",$q}" \
+    "component.0.hinge={table=\"\",$q}"
 described 'Components' "$given" "component.0.$q"
 primitives=()
 for kind in $(known_keys "$given" "component.0.$q"); do

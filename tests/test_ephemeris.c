@@ -135,6 +135,58 @@ START_TEST(test_ephemeris_turns_body_axes_into_gcrs)
 }
 END_TEST
 
+/* A sequence of a table, a slew and another table, and hinges that follow a table, in a chain: the
+ * quaternions are those of the files, the share of the slew is that of its time. */
+START_TEST(test_ephemeris_follows_sequences_and_tables)
+{
+    static const char STARTS[] = "2024-01-01T12:00:00Z";
+    write_file("rest.csv", "t_s,qw,qx,qy,qz\n-10,1,0,0,0\n1000,-1,0,0,0\n");
+    write_file("turn.csv", "utc,qw,qx,qy,qz\n2024-01-01T11:59:00Z,0.8,0,0,0.6\n"
+                           "2024-01-01T12:10:00Z,0.8,0,0,0.6\n");
+    write_file("inner.csv", "t_s,angle_deg\n-10,0\n90,100\n");
+    write_file("outer.csv", "t_s,angle_deg\n-10,340\n10,20\n90,20\n");
+    const double full = 2 * atan2(0.6, 0.8);
+    static const double AFTER_S[] = {0, 20, 50}, SHARE[] = {0, 0.25, 1};
+    for (int k = 0; k < 3; k++) { /* the row at 0 s, and the sequence that long before */
+        char text[TEXT_SIZE];
+        snprintf(
+            text, sizeof text,
+            "[time]\nstart = \"%s\"\nduration_s = 60\nstep_s = %g\n[observer]\n"
+            "latitude_deg = 48\nlongitude_deg = 16\n[orbit]\ntle_lines = [%s]\n"
+            "[[attitude]]\nlaw = \"table\"\nfile = \"rest.csv\"\n"
+            "[[attitude]]\nfrom = 10\nslew_s = 40\nlaw = \"table\"\nfile = \"turn.csv\"\n"
+            "[corrections]\nlight_time = false\n[materials.m]\nbrdf = \"lambert\"\nrho = 1\n"
+            "[[component]]\nname = \"inner\"\nhinge = { origin_m = [0, 0, 0], axis = [1, 0, 0], "
+            "table = \"inner.csv\" }\n[[component]]\nname = \"outer\"\nparent = \"inner\"\n"
+            "hinge = { origin_m = [0, 0, 0], axis = [0, 1, 0], table = \"outer.csv\", "
+            "shortest_way = true, offset_deg = 5, limits_deg = [-7, 370] }\n"
+            "[[component.plate]]\nsize_m = [1, 1]\nnormal = [0, 0, 1]\ntangent = [1, 0, 0]\n"
+            "material = \"m\"\n",
+            STARTS, k == 0 ? 60 : AFTER_S[k], ISS_LINES);
+        glint_scenario *s = read_sound(write_file("sequence.toml", text));
+        glint_ephemeris *e;
+        const glint_ephemeris_row *rows;
+        size_t n;
+        ck_assert_int_eq(glint_ephemeris_open(s, 1, &e, NULL), GLINT_OK);
+        ck_assert_int_eq(glint_ephemeris_next(e, &rows, &n, NULL), GLINT_OK);
+        ck_assert_uint_ge(n, 2);
+        const glint_ephemeris_row *row = &rows[k == 0 ? 0 : 1];
+        const double t_s = AFTER_S[k], angle = 0.5 * full * SHARE[k];
+        assert_near(row->t_s, t_s, 0);
+        assert_near(row->quaternion_wxyz[0], cos(angle), 1e-12);
+        assert_near(row->quaternion_wxyz[1], 0, 1e-12);
+        assert_near(row->quaternion_wxyz[2], 0, 1e-12);
+        assert_near(row->quaternion_wxyz[3], sin(angle), 1e-12);
+        /* from 340 on to 380 deg; 5 deg more; not above 370 deg */
+        assert_near(row->hinge_rad[0], (t_s + 10) * DEG, 1e-12);
+        const double outer_deg = t_s < 10 ? 340 + 2 * (t_s + 10) : 380;
+        assert_near(row->hinge_rad[1], fmin(outer_deg + 5, 370) * DEG, 1e-12);
+        glint_ephemeris_close(e);
+        glint_scenario_free(s);
+    }
+}
+END_TEST
+
 /* ------------------------------------------------------------ what must hold */
 
 /* Reads a scenario and holds it up for `check`, row by row, with the row before. */
@@ -382,6 +434,7 @@ int main(void)
     tcase_set_timeout(tc, 120);
     tcase_add_test(tc, test_ephemeris_agrees_with_another_program);
     tcase_add_test(tc, test_ephemeris_turns_body_axes_into_gcrs);
+    tcase_add_test(tc, test_ephemeris_follows_sequences_and_tables);
     tcase_add_test(tc, test_ephemeris_rates_are_differences);
     tcase_add_test(tc, test_ephemeris_angles_hold_together);
     tcase_add_test(tc, test_ephemeris_beta_is_the_declination_over_the_equator);

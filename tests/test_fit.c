@@ -191,7 +191,7 @@ static brdf_lobe lobe_with(const char *name, const truth *given)
 
 static bool is_fitted_here(const brdf_model *brdf)
 {
-    return !brdf->prepare_lobe && brdf->n_params <= 6;
+    return fit_takes(brdf) && brdf->n_params <= 6;
 }
 
 START_TEST(test_fit_recovers_parameters_of_every_model_without_noise)
@@ -541,14 +541,23 @@ END_TEST
 START_TEST(test_fit_form_refuses_what_is_no_sum)
 {
     static const char *const wrong[][2] = {
-        {"", "a term of the sum is empty"},      {"ward+", "a term of the sum is empty"},
-        {"+ward", "a term of the sum is empty"}, {"2*", "a term of the sum is empty"},
-        {"wrad", "did you mean 'ward'?"},        {"ward gmd", "there is no BRDF 'ward gmd'"},
-        {"0*ward", "expected N*NAME"},           {"9*ward", "expected N*NAME"},
-        {"-1*ward", "expected N*NAME"},          {"1.5*ward", "expected N*NAME"},
-        {"two*ward", "expected N*NAME"},         {"5*ward+4*ward", "more than 8 lobes"},
-        {"2*lambert", "has 'lambert' twice"},    {"lambert+ward+lambert", "has 'lambert' twice"},
-        {"binomial", "cannot be fitted"},
+        {"", "a term of the sum is empty"},
+        {"ward+", "a term of the sum is empty"},
+        {"+ward", "a term of the sum is empty"},
+        {"2*", "a term of the sum is empty"},
+        {"wrad", "did you mean 'ward'?"},
+        {"ward gmd", "there is no BRDF 'ward gmd'"},
+        {"0*ward", "expected N*NAME"},
+        {"9*ward", "expected N*NAME"},
+        {"-1*ward", "expected N*NAME"},
+        {"1.5*ward", "expected N*NAME"},
+        {"two*ward", "expected N*NAME"},
+        {"5*ward+4*ward", "more than 8 lobes"},
+        {"2*lambert", "has 'lambert' twice"},
+        {"lambert+ward+lambert", "has 'lambert' twice"},
+        {"binomial", "'binomial' cannot be fitted: it takes more than single numbers"},
+        {"lambert+table", "'table' cannot be fitted: it takes more than single numbers"},
+        {"mirror", "'mirror' cannot be fitted: f is a delta function"},
     };
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
         fit_form form;

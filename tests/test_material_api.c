@@ -145,6 +145,37 @@ START_TEST(test_material_file_that_ships_holds_the_published_materials)
 }
 END_TEST
 
+/* What is published of mirrors: reflectances of metals at normal incidence, to three digits, and
+ * the shares of sunlight that navigation satellites absorb and mirror. */
+START_TEST(test_material_files_that_ship_hold_the_published_mirrors)
+{
+    static const char METALS[] = SCENARIO_DIR "/materials/metals.toml",
+                      NAVIGATION[] = SCENARIO_DIR "/materials/navigation.toml";
+    static const struct {
+        const char *path, *name;
+        double mirrored, reflected;
+    } published[] = {{METALS, "aluminium-mirror", 0.921, 0.921},
+                     {METALS, "silver-mirror", 0.960, 0.960},
+                     {METALS, "gold-mirror", 0.848, 0.848},
+                     {NAVIGATION, "galileo-foc-a", 0.00, 0.07},
+                     {NAVIGATION, "galileo-foc-b", 0.22, 0.43},
+                     {NAVIGATION, "galileo-foc-c", 0.73, 0.92},
+                     {NAVIGATION, "galileo-foc-array-d", 0.10, 0.10},
+                     {NAVIGATION, "galileo-foc-array-e", 0.08, 0.08},
+                     {NAVIGATION, "gps-ii-body", 0.20 * 0.56, 0.56},
+                     {NAVIGATION, "gps-ii-panel", 0.85 * 0.23, 0.23},
+                     {NAVIGATION, "gps-iir-panel", 0.85 * 0.28, 0.28}};
+    for (size_t k = 0; k < COUNT_OF(published); k++) {
+        glint_material *m = read_good(published[k].path, published[k].name, NULL);
+        double dhr;
+        assert_near(glint_material_mirrored(m, 0), published[k].mirrored, 5e-4);
+        ck_assert_int_eq(glint_material_dhr(m, 0, 0, &dhr, NULL, NULL), GLINT_OK);
+        assert_near(dhr, published[k].reflected, 5e-4);
+        glint_material_free(m);
+    }
+}
+END_TEST
+
 static void check_reflectance(const char *path)
 {
     static const char *const NAMES[][2] = {{"panel", "solar-panel"}, {"mli", "mli"}};
@@ -353,6 +384,47 @@ START_TEST(test_material_of_parts_is_their_weighted_sum)
 }
 END_TEST
 
+static const char MIRROR[] = "[materials.glass]\nbrdf = \"sum\"\nparts = [\n"
+                             "  { weight = 0.5, brdf = \"mirror\", R = 1, n = 1.5 },\n"
+                             "  { brdf = \"lambert\", rho = 0.1 } ]\n";
+
+/* Light that is mirrored is in the reflectance, not in f; 0.04: ((n-1)/(n+1))^2. */
+START_TEST(test_material_that_mirrors_says_how_much)
+{
+    glint_material *glass = read_good(write_file("m.toml", MIRROR), "glass", NULL);
+    assert_rel(glint_material_mirrored(glass, 0), 0.02, 1e-14);
+    assert_rel(f_of(glass, 30, 0, 30, 180), 0.1 / PI, 1e-14);
+    double dhr;
+    ck_assert_int_eq(glint_material_dhr(glass, 0, 0, &dhr, NULL, NULL), GLINT_OK);
+    assert_rel(dhr, 0.12, 1e-8);
+    const double nowhere[] = {-0.1, PI / 2, 2, NAN, INFINITY};
+    for (size_t k = 0; k < COUNT_OF(nowhere); k++)
+        assert_near(glint_material_mirrored(glass, nowhere[k]), 0, 0);
+    glint_material_free(glass);
+}
+END_TEST
+
+START_TEST(test_material_table_says_what_f_leaves_out)
+{
+    glint_material *glass = read_good(write_file("m.toml", MIRROR), "glass", NULL);
+    const glint_material *const all[] = {glass};
+    static const double THETA_DEG[] = {0};
+    glint_material_view view = {
+        .kind = GLINT_VIEW_PLANE, .theta_i_deg = THETA_DEG, .n_theta_i = 1, .step_deg = 10};
+    for (int dhr = 0; dhr < 2; dhr++) {
+        if (dhr) view.kind = GLINT_VIEW_DHR;
+        glint_errors *errors = glint_errors_new();
+        ck_assert_int_eq(glint_material_table_write(all, 1, &view, "/dev/null", errors), GLINT_OK);
+        ck_assert_uint_eq(glint_errors_count(errors), dhr ? 0 : 1);
+        if (!dhr)
+            ck_assert_ptr_nonnull(strstr(glint_errors_get(errors, 0)->message,
+                                         "'glass' is a perfect mirror for 0.02 of the light"));
+        glint_errors_free(errors);
+    }
+    glint_material_free(glass);
+}
+END_TEST
+
 /* -------------------------------------------------------------------- reading */
 
 static const char BANDS[] = "[materials.paint]\nbrdf = \"lambert\"\nrho = 0.5\n"
@@ -376,6 +448,32 @@ START_TEST(test_material_of_a_band_has_what_differs_in_it)
 END_TEST
 
 /* The published parameters hold at 10.6 um. */
+/* Keys that the band's model does not have, and the spectrum, are those of the other model. */
+START_TEST(test_material_of_a_band_may_be_of_another_model)
+{
+    const char *path = write_file(
+        "m.toml",
+        "[materials.film]\nbrdf = \"ward-gmd\"\nrho_s = 0.3\nalpha_x = 0.1\n"
+        "alpha_y = 0.1\nspectrum = [ { wavelength_um = 0.4, rho_d = 0.1 },\n"
+        "  { wavelength_um = 0.9, rho_d = 0.2 } ]\n"
+        "[materials.film.bands.V]\nbrdf = \"lambert\"\nrho = 0.4\n"
+        "[materials.film.bands.R]\nbrdf = \"sum\"\n"
+        "parts = [ { brdf = \"lambert\", rho = 0.1 }, { brdf = \"lambert\", rho = 0.2 } ]\n");
+    static const struct {
+        const char *band;
+        double f;
+    } cases[] = {{"V", 0.4 / PI}, {"R", 0.3 / PI}};
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        glint_material *film = read_good(path, "film", cases[k].band);
+        assert_rel(f_of(film, 10, 0, 50, 70), cases[k].f, 1e-14);
+        glint_material_free(film);
+    }
+    glint_material *film = read_good(path, "film", NULL);
+    ck_assert_ptr_nonnull(strstr(glint_material_model(film), "ward-gmd"));
+    glint_material_free(film);
+}
+END_TEST
+
 START_TEST(test_material_far_from_where_it_holds_is_warned_of_in_a_band_alone)
 {
     for (int in_band = 0; in_band < 2; in_band++) {
@@ -709,6 +807,26 @@ START_TEST(test_material_view_that_cannot_be_is_refused)
 }
 END_TEST
 
+/* Small angles, where they can be degrees alone or are said to be. */
+START_TEST(test_material_angles_of_a_file_may_be_small)
+{
+    static const char *const texts[] = {
+        "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0.5,0,0.5,180\n",
+        "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,0,0\n",
+        "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0.5,0,0.5,0\n",
+    };
+    for (int k = 0; k < 3; k++) {
+        const glint_material_view view = {.kind = GLINT_VIEW_ANGLES,
+                                          .angles = write_file("angles.csv", texts[k]),
+                                          .unit_given = k == 2};
+        csv_table got = show(&view);
+        ck_assert_int_eq(got.n_rows, 2);
+        assert_near(table_number(&got, 0, "theta_r_deg"), k == 1 ? 0 : 0.5, 0);
+        csv_free(&got);
+    }
+}
+END_TEST
+
 START_TEST(test_material_angles_of_a_file_that_are_wrong_are_refused_with_places)
 {
     static const struct {
@@ -716,10 +834,14 @@ START_TEST(test_material_angles_of_a_file_that_are_wrong_are_refused_with_places
         int line;
     } cases[] = {
         {"theta_i_deg,phi_i_deg,theta_r_deg\n0,0,0\n", "no column 'phi_r_deg'", 1},
+        {"theta_i_deg,phi_i_deg,theta_r_deg,phi_o_deg\n0,0,0,0\n",
+         "no column 'phi_r_deg' (is 'phi_o_deg' meant?)", 1},
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n", "no rows", 0},
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,x,0\n", "'x'", 2},
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,0,0\n0,0,91,0\n", "found 91", 3},
         {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,-400,0,0\n", "found -400", 2},
+        {"theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n0,0,0.5,0\n0.1,3.1416,1.5708,0\n1,0,0,0\n",
+         "1.5708: these look like radians", 3},
     };
     for (size_t k = 0; k < COUNT_OF(cases); k++) {
         const char *path = write_file("angles.csv", cases[k].text);
@@ -739,6 +861,7 @@ int main(void)
     tcase_set_timeout(all, 120);
     tcase_add_test(all, test_material_brdf_matches_reference);
     tcase_add_test(all, test_material_file_that_ships_holds_the_published_materials);
+    tcase_add_test(all, test_material_files_that_ship_hold_the_published_mirrors);
     tcase_add_test(all, test_material_dhr_matches_reference);
     tcase_add_test(all, test_material_peak_matches_reference);
     tcase_add_test(all, test_material_peak_of_mli_is_four_times_that_of_the_panel);
@@ -748,7 +871,10 @@ int main(void)
     tcase_add_test(all, test_material_brdf_takes_negative_zenith_angles_for_the_other_side);
     tcase_add_test(all, test_material_angles_that_are_not_finite_are_refused);
     tcase_add_test(all, test_material_of_parts_is_their_weighted_sum);
+    tcase_add_test(all, test_material_that_mirrors_says_how_much);
+    tcase_add_test(all, test_material_table_says_what_f_leaves_out);
     tcase_add_test(all, test_material_of_a_band_has_what_differs_in_it);
+    tcase_add_test(all, test_material_of_a_band_may_be_of_another_model);
     tcase_add_test(all, test_material_far_from_where_it_holds_is_warned_of_in_a_band_alone);
     tcase_add_test(all, test_material_names_come_in_the_order_of_the_files);
     tcase_add_test(all, test_material_is_found_in_models_and_scenarios);
@@ -763,6 +889,7 @@ int main(void)
     tcase_add_test(all, test_material_table_of_reflectances);
     tcase_add_test(all, test_material_table_calls_materials_by_their_labels);
     tcase_add_test(all, test_material_view_that_cannot_be_is_refused);
+    tcase_add_test(all, test_material_angles_of_a_file_may_be_small);
     tcase_add_test(all, test_material_angles_of_a_file_that_are_wrong_are_refused_with_places);
     suite_add_tcase(suite, all);
     return run_suite(suite);

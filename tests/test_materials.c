@@ -312,6 +312,48 @@ START_TEST(test_material_place_that_is_wrong_is_refused)
 }
 END_TEST
 
+/* ----------------------------------------------------------------- mirrors */
+
+static const wrong_text wrong_mirrors[] = {
+    {PART_MATERIAL, "@[materials.white]\nbrdf = \"mirror\"\nR = 0.9\n",
+     "material 'white' is a perfect mirror", "a narrow lobe", 0},
+    {PART_MATERIAL,
+     "@[materials.white]\nbrdf = \"sum\"\nparts = [ { brdf = \"lambert\", rho = 0.1 }, "
+     "{ brdf = \"mirror\", R = 1, n = 1.5 } ]\n",
+     "material 'white' is a perfect mirror", "solar_disc = \"point\"", 0},
+    {PART_MATERIAL, "@[materials.white]\nbrdf = \"mirror\"\nR = 0.9\nk = 2\n", "k without n",
+     "n alone", 0},
+};
+
+START_TEST(test_material_that_is_a_mirror_is_refused_with_a_point_sun)
+{
+    ASSERT_ALL_WRONG(SOUND, wrong_mirrors);
+}
+END_TEST
+
+/* Whatever no surface shows may stand there. */
+START_TEST(test_material_that_is_a_mirror_may_stand_unused)
+{
+    const char *text = LAMBERT "rho = 1\n[materials.unused]\nbrdf = \"mirror\"\nR = 0.9\n";
+    glint_scenario_free(read_warned(write_material("[\"V\"]", text), 0, NULL, NULL, NULL));
+}
+END_TEST
+
+START_TEST(test_check_shows_what_a_mirror_reflects)
+{
+    const char *path = write_file("m.toml", "[materials.glass]\nbrdf = \"sum\"\nparts = [\n"
+                                            "  { brdf = \"mirror\", R = 1, n = 1.5 },\n"
+                                            "  { brdf = \"lambert\", rho = 0.25 } ]\n");
+    char *report;
+    ck_assert_int_eq(glint_check(path, NULL, 0, &report, NULL), GLINT_OK);
+    /* Fresnel: 0.0400 at 0 deg, 0.0415 at 30 deg, 0.0892 at 60 deg */
+    ck_assert_msg(strstr(report, "reflects 0.290, 0.292, 0.339 of the light"), "%s", report);
+    ck_assert_msg(strstr(report, "of that 0.040, 0.042, 0.089 into the mirror direction"), "%s",
+                  report);
+    glint_free(report);
+}
+END_TEST
+
 /* ------------------------------------------------------------------- check */
 
 START_TEST(test_check_describes_a_file_of_materials)
@@ -375,6 +417,12 @@ int main(void)
     tcase_add_test(warnings, test_material_far_from_where_it_holds_is_named);
     tcase_add_test(warnings, test_material_place_that_is_wrong_is_refused);
     suite_add_tcase(suite, warnings);
+    TCase *mirrors = tcase_create("mirrors");
+    tcase_add_checked_fixture(mirrors, folder_make, folder_remove);
+    tcase_add_test(mirrors, test_material_that_is_a_mirror_is_refused_with_a_point_sun);
+    tcase_add_test(mirrors, test_material_that_is_a_mirror_may_stand_unused);
+    tcase_add_test(mirrors, test_check_shows_what_a_mirror_reflects);
+    suite_add_tcase(suite, mirrors);
     TCase *check = tcase_create("check");
     tcase_add_checked_fixture(check, folder_make, folder_remove);
     tcase_add_test(check, test_check_describes_a_file_of_materials);

@@ -101,7 +101,7 @@ START_TEST(test_measured_reads_columns_by_their_usual_names)
 {
     const measured_format none = {0};
     check_rows("theta_i,theta_r,f\n30,30,5.5\n30,10.25,.25\n45,0,1e-3\n", none, PLANE_ROWS(2));
-    check_rows("f,note,theta_r,theta_i\n5.5,a,30,30\n0.25,,10.25,30\n+1E-3,1 2,0,45", none,
+    check_rows("f,note,theta_r,theta_i\n5.5,a,30,30\n0.25,,10.25,30\n+1E-3,1 2,0,45\n", none,
                PLANE_ROWS(2));
     check_rows(
         "theta_i,phi_i,theta_r,phi_r,f\n10,20,30,40,1\n11,-21,31,410,2\n12,22,32,42,3\n", none,
@@ -159,7 +159,7 @@ START_TEST(test_measured_accepts_every_separator_and_line_end)
 {
     const measured_format format = numbered(1, 0, 2, 0, 3);
     check_rows("30\t30\t5.5\n30\t10.25\t0.25\n45\t0\t0.001\n", format, PLANE_ROWS(1));
-    check_rows("  30   30 \t 5.5  \n\t30 10.25 0.25\n45 0    0.001", format, PLANE_ROWS(1));
+    check_rows("  30   30 \t 5.5  \n\t30 10.25 0.25\n45 0    0.001\n", format, PLANE_ROWS(1));
     check_rows("30;30;5.5\r\n30;10.25;0.25\r\n45;0;0.001\r\n", format, PLANE_ROWS(1));
     check_rows("30 , 30 , 5.5\n30, 10.25,0.25\n45 ,0, 0.001 ,\n", format, PLANE_ROWS(1));
     check_rows("\xEF\xBB\xBF"
@@ -191,6 +191,41 @@ START_TEST(test_measured_signed_zenith_means_the_opposite_azimuth)
     check_rows(
         "30 10 -40 10 1\n30 10 -40 50 2\n-90 10 90 0 3\n", format,
         (const row[]){{30, 10, 40, 190, 1, 1}, {30, 10, 40, 230, 2, 2}, {90, 190, 90, 0, 3, 3}});
+}
+END_TEST
+
+/* rad where deg are expected: refused, unless the unit is said. */
+static const char small[] = "0.5 1 0.25 2 7\n0.1 0 1.5533 6.2832 8\n1 1 1 1 9\n";
+
+START_TEST(test_measured_leaves_small_angles_that_can_be_degrees_alone)
+{
+    static const char *const texts[] = {
+        "0.5 0 0.25 180 7\n0 0 1.5 180 8\n1 0 1 180 9\n", /* the azimuths are no rad */
+        "0.5 1 0.25 2 7\n0 0 1.6 1 8\n1 1 1 1 9\n",       /* 1.6 rad lies below the horizon */
+        "0 0 0 0 7\n0 0 0 0 8\n0 0 0 0 9\n",              /* the same in any unit */
+    };
+    const measured_format format = numbered(1, 2, 3, 4, 5);
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        reading r = read_bytes(texts[k], strlen(texts[k]), &format);
+        ck_assert_msg(r.status == GLINT_OK, "%s", texts[k]);
+        end_reading(&r);
+    }
+}
+END_TEST
+
+START_TEST(test_measured_believes_a_unit_that_is_said)
+{
+    measured_format format = numbered(1, 2, 3, 4, 5);
+    format.unit_given = true;
+    reading r = read_bytes(small, sizeof small - 1, &format);
+    ck_assert_int_eq(r.status, GLINT_OK);
+    check_direction(r.rows.points[1].r, 1.5533, 6.2832);
+    end_reading(&r);
+    format.radians = true;
+    r = read_bytes(small, sizeof small - 1, &format);
+    ck_assert_int_eq(r.status, GLINT_OK);
+    check_direction(r.rows.points[1].r, 1.5533 / DEG, 6.2832 / DEG);
+    end_reading(&r);
 }
 END_TEST
 
@@ -284,9 +319,9 @@ static void check_wrong(const wrong *w, measured_format format)
 START_TEST(test_measured_reports_every_error_at_its_place)
 {
     static const wrong cases[] = {
-        {"", {{0, 0, "found 0 usable rows", false}}},
-        {"# a\n\n", {{0, 0, "found 0 usable rows", false}}},
-        {"1 2 3\n4 5 6\n", {{0, 0, "found 2 usable rows", false}}},
+        {"", {{0, 0, "found 0 rows of numbers", false}}},
+        {"# a\n\n", {{0, 0, "found 0 rows of numbers", false}}},
+        {"1 2 3\n4 5 6\n", {{0, 0, "found 2 rows of numbers", false}}},
         {"1 2 3\n4 5 6\n7 8 0\n", {{0, 0, "found 2 usable rows (and 1 without light)", false}}},
         {"1 2 3\n4 5\n7 8 9 10\n1 2 3\n1 2 3\n",
          {{2, 1, "has 2 cells; expected 3", false}, {3, 1, "has 4 cells", false}}},
@@ -325,11 +360,61 @@ START_TEST(test_measured_reports_angles_out_of_range_when_signed)
 }
 END_TEST
 
+START_TEST(test_measured_reports_angles_that_look_like_radians)
+{
+    const measured_format format = numbered(1, 2, 3, 4, 5);
+    check_wrong(&(const wrong){small, {{2, 7, "1.5533: these look like radians", false}}}, format);
+    check_wrong(&(const wrong){"0 0 0 0 7\n0 0 1.5708 -3.1416 8\n0 0 0.5 0 9\n",
+                               {{2, 5, "expected degrees, or the unit said outright", false}}},
+                format);
+}
+END_TEST
+
+START_TEST(test_measured_reports_degrees_where_radians_are_said)
+{
+    measured_format format = numbered(1, 0, 2, 0, 3);
+    format.radians = true;
+    check_wrong(&(const wrong){"30 0.1 3\n0 0.4 6\n",
+                               {{1, 1,
+                                 "30 rad; expected 0 to 90 deg from the normal (degrees need "
+                                 "angles = \"deg\")",
+                                 false}}},
+                format);
+}
+END_TEST
+
+START_TEST(test_measured_last_row_without_line_end_is_left_out)
+{
+    const measured_format format = numbered(1, 0, 2, 0, 3);
+    static const char four[] = "30 30 5.5\n30 10 0.25\n45 0 0.001\n45 10 0.0123";
+    reading r = read_bytes(four, sizeof four - 1, &format);
+    ck_assert_int_eq(r.status, GLINT_OK);
+    ck_assert_int_eq(r.rows.n, 3);
+    ck_assert_uint_eq(glint_errors_count(r.errors), 1);
+    const glint_error *warning = glint_errors_get(r.errors, 0);
+    ck_assert_int_eq(warning->severity, GLINT_WARNING);
+    ck_assert_int_eq(warning->line, 4);
+    ck_assert_str_eq(warning->file, r.path);
+    ck_assert_ptr_nonnull(strstr(warning->message, "end it with a new line if it is whole"));
+    end_reading(&r);
+    check_wrong(
+        &(const wrong){"1 2 3\n4 5 6\n7 8 9",
+                       {{3, 1, "no line end", false}, {0, 0, "found 2 rows of numbers", false}}},
+        format);
+    check_wrong(
+        &(const wrong){"7 8 9",
+                       {{1, 1, "no line end", false}, {0, 0, "found 0 rows of numbers", false}}},
+        format);
+}
+END_TEST
+
 START_TEST(test_measured_reports_columns_that_are_not_there)
 {
     static const char header[] = "in,out,f\n1,2,3\n4,5,6\n7,8,9\n", plain[] = "1,2,3\n4,5,6\n";
-    check_wrong(&(const wrong){header, {{4, 9, "no column 'fi'; it has: in, out, f", true}}},
-                named("in", NULL, "out", NULL, "fi"));
+    check_wrong(
+        &(const wrong){header,
+                       {{4, 9, "no column 'fi' (did you mean 'f'?); it has: in, out, f", true}}},
+        named("in", NULL, "out", NULL, "fi"));
     check_wrong(&(const wrong){plain,
                                {{4, 9, "no header line that names its columns", true},
                                 {4, 9, "in place of 'out'", true},
@@ -375,6 +460,110 @@ START_TEST(test_measured_refuses_what_is_no_table)
 }
 END_TEST
 
+/* --------------------------------------------------------------- rows together */
+
+/* What rows get together: status *want, and that many errors and warnings, of which the list holds
+ * line and part of the text. */
+typedef struct together {
+    const char *text;
+    int n;
+    struct {
+        int line;
+        const char *part;
+    } said[3];
+} together;
+
+static void check_together(const together *t, glint_status want)
+{
+    const measured_format format = numbered(1, 2, 3, 4, 5);
+    reading r = read_bytes(t->text, strlen(t->text), &format);
+    ck_assert_msg(r.status == GLINT_OK, "%s", t->text);
+    ck_assert_msg(measured_check(&r.rows, r.path, r.errors) == want, "%s", t->text);
+    ck_assert_msg((int)glint_errors_count(r.errors) == t->n, "%zu for: %s",
+                  glint_errors_count(r.errors), t->text);
+    for (int k = 0; k < t->n; k++) {
+        const glint_error *e = glint_errors_get(r.errors, (size_t)k);
+        ck_assert_int_eq(e->severity, want ? GLINT_ERROR : GLINT_WARNING);
+        ck_assert_str_eq(e->file, r.path);
+        ck_assert_msg(e->line == t->said[k].line && strstr(e->message, t->said[k].part), "%d: %s",
+                      e->line, e->message);
+    }
+    end_reading(&r);
+}
+
+START_TEST(test_measured_doubles_that_disagree_name_both_lines)
+{
+    check_together(&(const together){"30 0 10 180 1\n"
+                                     "30 0 20 180 2\n"
+                                     "30 0 10 180 3\n" /* of line 1 */
+                                     "30 0 0 180 4\n"
+                                     "30 0 0 180 7\n" /* of line 4 */
+                                     "30 0 10.0 180 1e0\n",
+                                     2,
+                                     {{5, "f is 7 here and 4 at the same angles in line 4"},
+                                      {3, "f is 3 here and 1 at the same angles in line 1"}}},
+                   GLINT_INPUT);
+}
+END_TEST
+
+/* The same row word by word says nothing new; reciprocals, the pole seen from two azimuths and the
+ * other side of the plane are measurements of their own, of one place. */
+START_TEST(test_measured_doubles_that_agree_are_fine)
+{
+    check_together(&(const together){"30 0 10 180 1\n30 0 20 180 2\n30 0 10 180 1\n"
+                                     "30 0 20.0 180 2e0\n",
+                                     0,
+                                     {{0, NULL}}},
+                   GLINT_OK);
+    check_together(&(const together){"30 0 10 180 1\n10 0 30 180 2\n30 0 0 180 3\n30 0 0 0 4\n"
+                                     "30 0 10 -180 5\n",
+                                     0,
+                                     {{0, NULL}}},
+                   GLINT_OK);
+}
+END_TEST
+
+START_TEST(test_measured_gaps_of_scans_are_warned_of)
+{
+    /* one row of even steps is missing */
+    check_together(
+        &(const together){"30 0 0 180 1\n30 0 5 180 1\n30 0 10 180 1\n30 0 20 180 1\n"
+                          "30 0 25 180 1\n30 0 30 180 1\n",
+                          1,
+                          {{4, "between theta_r = 10 (line 3) and 20 here, where rows stand 5 "
+                               "apart on both sides; ln f"}}},
+        GLINT_OK);
+    /* rows in any order, two scans, the wider of two gaps */
+    check_together(
+        &(const together){"60 0 80 180 1\n60 0 10 180 1\n60 0 0 180 1\n60 0 70 180 1\n"
+                          "30 0 0 180 1\n30 0 10 180 1\n30 0 50 180 1\n30 0 60 180 1\n",
+                          1,
+                          {{4, "between theta_r = 10 (line 2) and 70 here, where rows stand 10 "
+                               "apart on both sides (the widest of 2 such gaps)"}}},
+        GLINT_OK);
+    /* rings: the azimuth moves */
+    check_together(&(const together){"30 0 20 0 1\n30 0 20 30 1\n30 0 20 120 1\n30 0 20 150 1\n",
+                                     1,
+                                     {{3, "between phi_r = 30 (line 2) and 120 here"}}},
+                   GLINT_OK);
+}
+END_TEST
+
+START_TEST(test_measured_steps_that_change_are_no_gaps)
+{
+    /* even; finer near the peak; one row at each end; scattered */
+    static const char *const texts[] = {
+        "30 0 0 180 1\n30 0 5 180 1\n30 0 10 180 1\n30 0 15 180 1\n30 0 20 180 1\n",
+        "30 0 0 180 1\n30 0 10 180 1\n30 0 20 180 1\n30 0 28 180 1\n30 0 29 180 1\n"
+        "30 0 30 180 1\n30 0 31 180 1\n30 0 32 180 1\n30 0 40 180 1\n30 0 50 180 1\n",
+        "30 0 0 180 1\n30 0 30 180 1\n30 0 40 180 1\n30 0 50 180 1\n30 0 80 180 1\n",
+        "30 10 0 180 1\n35 20 30 170 1\n40 30 40 160 1\n45 40 50 150 1\n50 50 80 140 1\n",
+    };
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++)
+        check_together(&(const together){texts[k], 0, {{0, NULL}}}, GLINT_OK);
+}
+END_TEST
+
 /* ------------------------------------------------------------------ damage */
 
 static const char sample[] = "# phi_i theta_i phi_o theta_o brdf\r\n"
@@ -383,7 +572,7 @@ static const char sample[] = "# phi_i theta_i phi_o theta_o brdf\r\n"
                              "# between\n"
                              "60.00  -180.00   10.00  0.00  2.0e-02\n"
                              "41.40  -180.00   41.00  0.00  12.9424\n"
-                             "5.00  -180.00   -5.00  0.00  0.25625";
+                             "5.00  -180.00   -5.00  0.00  0.25625\n";
 
 static measured_format sample_format(void)
 {
@@ -392,8 +581,8 @@ static measured_format sample_format(void)
     return format;
 }
 
-/* A file cut at any byte: rows that are whole are read as they are, and a row that lacks a cell is
- * refused; only a cut within the last number of a row goes unseen. */
+/* A file cut at any byte: the rows before the cut are read as they are, and what the cut left of
+ * one is left out with a warning that names its line. */
 START_TEST(test_measured_takes_no_cut_row_for_a_whole_one)
 {
     const measured_format format = sample_format();
@@ -402,19 +591,24 @@ START_TEST(test_measured_takes_no_cut_row_for_a_whole_one)
     ck_assert_int_eq(whole.rows.n, 5);
     for (size_t n = 0; n < sizeof sample - 1; n++) {
         reading cut = read_bytes(sample, n, &format);
-        size_t start = n; /* of the last line */
-        while (start > 0 && sample[start - 1] != '\n')
-            start--;
-        int cells = 0;
-        for (size_t k = start; k < n; k++)
-            cells += sample[k] > ' ' && (k == start || sample[k - 1] <= ' ');
-        const bool is_row = cells > 0 && sample[start] != '#';
-        if (is_row && cells < 5) ck_assert_int_eq(cut.status, GLINT_INPUT);
-        for (int k = 0; k < cut.rows.n; k++) {
-            const measured_point *got = &cut.rows.points[k], *want = &whole.rows.points[k];
-            ck_assert(memcmp(got->i, want->i, sizeof got->i) == 0);
-            ck_assert(memcmp(got->r, want->r, sizeof got->r) == 0);
-            if (k + 1 < cut.rows.n || !is_row) assert_near(got->f, want->f, 0.0);
+        int line = 1, n_rows = 0; /* of the cut; whole rows before it */
+        size_t start = 0;         /* of its line */
+        for (size_t k = 0; k < n; k++) {
+            if (sample[k] != '\n') continue;
+            n_rows += sample[start] != '#';
+            start = k + 1;
+            line++;
+        }
+        ck_assert_int_eq(cut.status, n_rows >= 3 ? GLINT_OK : GLINT_INPUT);
+        ck_assert_int_eq(cut.rows.n, n_rows >= 3 ? n_rows : 0);
+        for (int k = 0; k < cut.rows.n; k++)
+            ck_assert(
+                memcmp(&cut.rows.points[k], &whole.rows.points[k], sizeof cut.rows.points[k]) == 0);
+        if (start < n && sample[start] != '#') { /* no row begins with a blank */
+            const glint_error *warning = glint_errors_get(cut.errors, 0);
+            ck_assert_int_eq(warning->severity, GLINT_WARNING);
+            ck_assert_int_eq(warning->line, line);
+            ck_assert_ptr_nonnull(strstr(warning->message, "no line end"));
         }
         ck_assert(cut.status == GLINT_OK || glint_errors_error_count(cut.errors) > 0);
         end_reading(&cut);
@@ -501,6 +695,15 @@ int main(void)
     tcase_add_test(all, test_measured_skips_comments_and_blank_lines);
     tcase_add_test(all, test_measured_signed_zenith_means_the_opposite_azimuth);
     tcase_add_test(all, test_measured_reads_radians);
+    tcase_add_test(all, test_measured_leaves_small_angles_that_can_be_degrees_alone);
+    tcase_add_test(all, test_measured_believes_a_unit_that_is_said);
+    tcase_add_test(all, test_measured_reports_angles_that_look_like_radians);
+    tcase_add_test(all, test_measured_reports_degrees_where_radians_are_said);
+    tcase_add_test(all, test_measured_last_row_without_line_end_is_left_out);
+    tcase_add_test(all, test_measured_doubles_that_disagree_name_both_lines);
+    tcase_add_test(all, test_measured_doubles_that_agree_are_fine);
+    tcase_add_test(all, test_measured_gaps_of_scans_are_warned_of);
+    tcase_add_test(all, test_measured_steps_that_change_are_no_gaps);
     tcase_add_test(all, test_measured_leaves_out_rows_without_light);
     tcase_add_test(all, test_measured_tells_in_plane_from_full);
     tcase_add_test(all, test_measured_reports_every_error_at_its_place);

@@ -85,7 +85,7 @@ static double total_in(const bench *b, const double sun[3], const double observe
     for (int c = 0; c < m->n_components; c++)
         lights[c] = light_of(sun, observer);
     double *x = malloc((size_t)m->n_bands * (size_t)m->n_spans * BRDF_TILE * sizeof *x);
-    model_sum(m, lights, NULL, x);
+    model_sum(m, lights, NULL, NULL, x);
     double sum = 0;
     for (int s = 0; s < m->n_spans; s++) {
         const double *lane = x + ((size_t)band * (size_t)m->n_spans + (size_t)s) * BRDF_TILE;
@@ -667,7 +667,7 @@ START_TEST(test_model_sum_weighs_facets_by_what_is_visible)
     double visible[2][BRDF_TILE], x[2][BRDF_TILE];
     for (int k = 0; k < BRDF_TILE; k++)
         visible[0][k] = k / 31.0, visible[1][k] = 1 - k / 31.0;
-    model_sum(&b->model, lights, &visible[0][0], &x[0][0]);
+    model_sum(&b->model, lights, NULL, &visible[0][0], &x[0][0]);
     for (int k = 0; k < BRDF_TILE; k++) {
         assert_rel(x[0][k], 3 * 0.25 / PI * (k / 31.0), 1e-15);
         assert_rel(x[1][k], 2 * 0.5 / PI * cos(k * DEG) * (1 - k / 31.0), 1e-15);

@@ -428,7 +428,7 @@ START_TEST(test_curve_plot_is_drawn_whatever_the_rows_are)
         {GIVEN, PART_TOP, "", "phase angle (deg)"},
         {TURNING, PART_TIME,
          "[geometry]\nrotate = { axis = [0, 0, 1], step_deg = 30, sun = [0, 0, -1], "
-         "observer = [1, 0, 0] }\n",
+         "observer = [0, 0, 1] }\n",
          "no row has a magnitude"},
     };
     for (size_t k = 0; k < COUNT_OF(cases); k++) {

@@ -193,7 +193,7 @@ START_TEST(test_scenario_element_sets_by_file_name_number_or_lines)
         snprintf(content, sizeof content, "[orbit]\n%s", all[k].text);
         glint_scenario *s = read_with(SOUND, PART_ORBIT, content);
         ck_assert_int_eq(s->orbit.source, ORBIT_TLE);
-        ck_assert_int_eq(s->orbit.tle.number, all[k].number);
+        ck_assert_int_eq(s->orbit.sets.sets[0].number, all[k].number);
         glint_scenario_free(s);
     }
 }
@@ -255,10 +255,10 @@ START_TEST(test_scenario_attitude_laws_are_read)
         char content[512];
         snprintf(content, sizeof content, "[attitude]\n%s", all[k]);
         glint_scenario *s = read_with(SOUND, PART_ATTITUDE, content);
-        ck_assert_msg(strncmp(all[k] + 7, s->attitude.law->name, strlen(s->attitude.law->name)) ==
-                          0,
-                      "%s", s->attitude.law->name);
-        ck_assert(!s->attitude.has_offset);
+        ck_assert_msg(strncmp(all[k] + 7, s->attitude.legs[0].law.law->name,
+                              strlen(s->attitude.legs[0].law.law->name)) == 0,
+                      "%s", s->attitude.legs[0].law.law->name);
+        ck_assert(!s->attitude.legs[0].law.has_offset);
         glint_scenario_free(s);
     }
 }
@@ -271,7 +271,7 @@ START_TEST(test_scenario_spin_and_offset_values)
         "[attitude]\nlaw = \"spin\"\nbody_axis = [3, 0, 4]\npole = { ra_deg = 200, dec_deg = 35 }\n"
         "rate_deg_s = 7\nphase_deg = 25\nepoch = 2025-07-25T20:36:00Z\n"
         "offset_deg = { axis = [0, 2, 0], angle = 90 }\n");
-    const attitude *a = &s->attitude;
+    const attitude *a = &s->attitude.legs[0].law;
     assert_vec(a->axis, 0.6, 0, 0.8, rounding);
     assert_rel(a->rate_rad_s, 7 * PI / 180, rounding);
     assert_rel(a->phase_rad, 25 * PI / 180, rounding);
@@ -284,9 +284,9 @@ START_TEST(test_scenario_spin_and_offset_values)
     s = read_with(SOUND, PART_ATTITUDE,
                   "[attitude]\nlaw = \"spin\"\nbody_axis = [0, 0, 1]\npole = \"north\"\n"
                   "period_s = 30\n");
-    assert_rel(s->attitude.rate_rad_s, 2 * PI / 30, rounding);
-    assert_near(s->attitude.phase_rad, 0, 0);
-    assert_near(s->attitude.epoch_s, 0, 0);
+    assert_rel(s->attitude.legs[0].law.rate_rad_s, 2 * PI / 30, rounding);
+    assert_near(s->attitude.legs[0].law.phase_rad, 0, 0);
+    assert_near(s->attitude.legs[0].law.epoch_s, 0, 0);
     glint_scenario_free(s);
 }
 END_TEST
@@ -317,7 +317,7 @@ START_TEST(test_scenario_every_direction_is_read)
                  "second_to = { ra_deg = 77, dec_deg = 11 }\n",
                  all[k].text);
         glint_scenario *s = read_with(SOUND, PART_ATTITUDE, content);
-        ck_assert_int_eq(s->attitude.to.kind, all[k].kind);
+        ck_assert_int_eq(s->attitude.legs[0].law.to.kind, all[k].kind);
         ck_assert_int_eq(s->needs_moon, all[k].kind == DIRECTION_MOON);
         glint_scenario_free(s);
     }

@@ -112,6 +112,7 @@ START_TEST(test_model_every_brdf_of_the_table_is_read)
     for (size_t k = 0; brdf_model_at(k); k++) {
         const brdf_model *brdf = brdf_model_at(k);
         if (brdf->flags & BRDF_MEASURED) continue; /* needs a file: test_materials.c */
+        if (brdf->specular) continue;              /* refused with a point Sun: test_materials.c */
         char keys[1024];
         int n = snprintf(keys, sizeof keys, "brdf = \"%s\"\n", brdf->name);
         for (int j = 0; j < brdf->n_params; j++) {

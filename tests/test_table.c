@@ -4,13 +4,14 @@
 #include "base/constants.h"
 #include "base/vec.h"
 #include "brdf/table.h"
+#include "scenario/scenario.h"
 
 #include <stdbool.h>
 #include <unistd.h>
 
 /* ------------------------------------------------------------------ helpers */
 
-static void direction(double theta_deg, double phi_deg, double out[3])
+static void angles_to(double theta_deg, double phi_deg, double out[3])
 {
     const double theta = theta_deg * DEG, phi = phi_deg * DEG;
     out[0] = sin(theta) * cos(phi);
@@ -47,7 +48,7 @@ static double next_random(uint64_t *state)
 
 static void random_up(uint64_t *state, double max_theta_deg, double out[3])
 {
-    direction(max_theta_deg * next_random(state), 360.0 * next_random(state), out);
+    angles_to(max_theta_deg * next_random(state), 360.0 * next_random(state), out);
 }
 
 /* ---- truths */
@@ -114,8 +115,8 @@ static void add_row(measured *m, const double i[3], const double r[3], double f)
 static void add_angles(measured *m, double theta_i, double theta_r, double phi, double f)
 {
     double i[3], r[3];
-    direction(theta_i, 180, i);
-    direction(theta_r, phi, r);
+    angles_to(theta_i, 180, i);
+    angles_to(theta_r, phi, r);
     add_row(m, i, r, f);
 }
 
@@ -127,8 +128,8 @@ static measured scans(brdf_truth *truth, double last_i, double step_i, double la
     for (double theta_i = 0; theta_i <= last_i; theta_i += step_i)
         for (double theta_r = -last; theta_r <= last; theta_r += step) {
             double i[3], r[3];
-            direction(theta_i, 180, i);
-            direction(theta_r, 0, r);
+            angles_to(theta_i, 180, i);
+            angles_to(theta_r, 0, r);
             add_row(&m, i, r, truth(i, r));
         }
     return m;
@@ -142,8 +143,8 @@ static measured grid(brdf_truth *truth, double last, double step_i, double step_
         for (double theta_r = 0; theta_r <= last; theta_r += step_r)
             for (double phi = 0; phi <= 180; phi += step_phi) {
                 double i[3], r[3];
-                direction(theta_i, 0, i);
-                direction(theta_r, phi, r);
+                angles_to(theta_i, 0, i);
+                angles_to(theta_r, phi, r);
                 add_row(&m, i, r, truth(i, r));
             }
     return m;
@@ -156,8 +157,8 @@ static measured scattered(brdf_truth *truth, int n, bool in_plane)
     uint64_t state = 7;
     for (int k = 0; k < n; k++) {
         double i[3], r[3];
-        direction(80 * next_random(&state), 0, i);
-        direction(80 * next_random(&state), in_plane ? 180 * (k % 2) : 360 * next_random(&state),
+        angles_to(80 * next_random(&state), 0, i);
+        angles_to(80 * next_random(&state), in_plane ? 180 * (k % 2) : 360 * next_random(&state),
                   r);
         add_row(&m, i, r, truth(i, r));
     }
@@ -287,6 +288,31 @@ START_TEST(test_table_of_one_place_is_constant)
 }
 END_TEST
 
+/* Rows may stand in any order; here they are shuffled. */
+START_TEST(test_table_does_not_depend_on_the_order_of_rows)
+{
+    measured m = kind_of_rows(_i);
+    brdf_lobe lobe = table_of(&m);
+    uint64_t state = 3;
+    for (int k = m.n - 1; k > 0; k--) {
+        const int other = (int)(next_random(&state) * (k + 1));
+        const measured_point p = m.points[k];
+        m.points[k] = m.points[other];
+        m.points[other] = p;
+    }
+    brdf_lobe shuffled = table_of(&m);
+    for (int k = 0; k < 1000; k++) {
+        double i[3], r[3];
+        random_up(&state, 90, i);
+        random_up(&state, 90, r);
+        assert_rel(table_f(&shuffled, i, r), table_f(&lobe, i, r), 1e-9);
+    }
+    brdf_lobe_free(&lobe);
+    brdf_lobe_free(&shuffled);
+    measured_free(&m);
+}
+END_TEST
+
 /* Scans in which the light moves and the observer rests are as good. */
 START_TEST(test_table_reads_scans_of_either_direction)
 {
@@ -364,13 +390,13 @@ START_TEST(test_table_is_isotropic)
         const double theta_i = 88 * next_random(&state), theta_r = 88 * next_random(&state);
         const double phi = 360 * next_random(&state), turn = 360 * next_random(&state);
         double i[3], r[3];
-        direction(theta_i, 0, i);
-        direction(theta_r, phi, r);
+        angles_to(theta_i, 0, i);
+        angles_to(theta_r, phi, r);
         const double f = table_f(&lobe, i, r);
-        direction(theta_i, turn, i);
-        direction(theta_r, turn + phi, r);
+        angles_to(theta_i, turn, i);
+        angles_to(theta_r, turn + phi, r);
         assert_rel(table_f(&lobe, i, r), f, 1e-9);
-        direction(theta_r, turn - phi, r);
+        angles_to(theta_r, turn - phi, r);
         assert_rel(table_f(&lobe, i, r), f, 1e-9);
     }
     brdf_lobe_free(&lobe);
@@ -405,9 +431,9 @@ START_TEST(test_table_is_monotone_between_neighbours_of_a_scan)
     brdf_lobe lobe = table_of(&m);
     for (double from = -85; from < 85; from += 5) {
         double i[3], r[3], f[21];
-        direction(30, 180, i);
+        angles_to(30, 180, i);
         for (int k = 0; k <= 20; k++) {
-            direction(from + 0.25 * k, 0, r);
+            angles_to(from + 0.25 * k, 0, r);
             f[k] = table_f(&lobe, i, r);
         }
         for (int k = 1; k <= 20; k++) /* where other scans cross, at 0 and +-60, there are nodes */
@@ -554,8 +580,8 @@ static recovery recover(const brdf_lobe *lobe, brdf_truth *truth, bool in_plane)
             phi = 175 + 10 * next_random(&state);
         }
         if (in_plane) phi = k % 4 == 0 ? 0 : 180;
-        direction(theta_i, 0, i);
-        direction(theta_r, phi, r);
+        angles_to(theta_i, 0, i);
+        angles_to(theta_r, phi, r);
         if (!table_covers(lobe, i, r)) continue;
         const double error = log(table_f(lobe, i, r) / truth(i, r));
         found.rms += error * error;
@@ -669,8 +695,8 @@ END_TEST
 static bool covers(const brdf_lobe *lobe, double theta_i, double theta_r, double phi)
 {
     double i[3], r[3];
-    direction(theta_i, 0, i);
-    direction(theta_r, phi, r);
+    angles_to(theta_i, 0, i);
+    angles_to(theta_r, phi, r);
     return table_covers(lobe, i, r);
 }
 
@@ -692,6 +718,31 @@ START_TEST(test_table_covers_what_lies_between_scans)
     ck_assert(half_pair(50 * DEG, 0, 45 * DEG, PI / 2, i, r));
     ck_assert(!table_covers(&lobe, i, r));
     brdf_lobe_free(&lobe);
+}
+END_TEST
+
+/* Rows near the mirror direction alone: theta_h up to 10 deg, theta_d up to 70 deg. */
+START_TEST(test_table_covers_narrow_scans_near_the_mirror_direction_alone)
+{
+    measured m = {.in_plane = true};
+    for (double theta_r = 40; theta_r <= 80; theta_r += 5)
+        add_angles(&m, 60, theta_r, 0, 1.0);
+    brdf_lobe lobe = table_made(m);
+    ck_assert(covers(&lobe, 0, 0, 180) && covers(&lobe, 30, 30, 180) && covers(&lobe, 60, 60, 180));
+    ck_assert(covers(&lobe, 60, 78, 180) && !covers(&lobe, 40, 62, 180)); /* theta_h 9, 11 deg */
+    ck_assert(!covers(&lobe, 50, 40, 0));                                 /* theta_h 45 deg */
+    brdf_lobe_free(&lobe);
+}
+END_TEST
+
+START_TEST(test_table_covers_its_own_rows)
+{
+    measured m = kind_of_rows(_i);
+    brdf_lobe lobe = table_of(&m);
+    for (int k = 0; k < m.n; k++)
+        ck_assert_msg(table_covers(&lobe, m.points[k].i, m.points[k].r), "row %d", k);
+    brdf_lobe_free(&lobe);
+    measured_free(&m);
 }
 END_TEST
 
@@ -731,8 +782,8 @@ START_TEST(test_table_reports_the_part_of_the_hemisphere)
     int covered = 0;
     for (int k = 0; k < 20000; k++) {
         double i[3], r[3];
-        direction(asin(sqrt(next_random(&state))) / DEG, 0, i);
-        direction(asin(sqrt(next_random(&state))) / DEG, 360 * next_random(&state), r);
+        angles_to(asin(sqrt(next_random(&state))) / DEG, 0, i);
+        angles_to(asin(sqrt(next_random(&state))) / DEG, 360 * next_random(&state), r);
         covered += table_covers(&lobe, i, r);
     }
     assert_near(facts.covered, covered / 20000.0, 0.025);
@@ -906,6 +957,100 @@ START_TEST(test_table_warns_of_what_was_not_measured)
 }
 END_TEST
 
+/* Values that were not measured are counted where they are shown. */
+START_TEST(test_table_values_outside_are_told_of)
+{
+    static const struct {
+        double theta_i, theta_r; /* deg */
+        bool covered;
+    } cases[] = {{30, 30, true}, {30, -10, true}, {60, 60, true}, {45, 45, true}, {80, 80, false}};
+    const folder f = make_folder(GOOD_TABLE);
+    glint_material *material;
+    ck_assert_int_eq(glint_material_read(f.toml, "m", NULL, &material, NULL), GLINT_OK);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        ck_assert_msg(glint_material_covers(material, cases[k].theta_i * DEG, 0,
+                                            fabs(cases[k].theta_r) * DEG,
+                                            cases[k].theta_r < 0 ? 0 : PI) == cases[k].covered,
+                      "%g and %g deg", cases[k].theta_i, cases[k].theta_r);
+    write_text(f.csv, "theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n30,0,30,180\n80,0,80,180\n"
+                      "80,0,85,180\n80,0,90,180\n");
+    const glint_material *const all[] = {material};
+    const glint_material_view view = {.kind = GLINT_VIEW_ANGLES, .angles = f.csv};
+    glint_errors *errors = glint_errors_new();
+    ck_assert_int_eq(glint_material_table_write(all, 1, &view, "/dev/null", errors), GLINT_OK);
+    ck_assert_uint_eq(glint_errors_count(errors), 1);
+    ck_assert_ptr_nonnull(strstr(glint_errors_get(errors, 0)->message,
+                                 "2 of the 4 values of 'm' lie outside of what was measured"));
+    glint_errors_free(errors);
+    glint_material_free(material);
+    remove_folder(&f);
+}
+END_TEST
+
+/* Materials in three bands read their file once for each floor: what is said of it is not said
+ * again. */
+START_TEST(test_table_is_read_once_for_all_bands)
+{
+    static const char scenario[] =
+        "[geometry]\nsweep = { phase_deg = [0, 80, 40], plane = \"xz\" }\n"
+        "[photometry]\nbands = [\"B\", \"V\", \"R\"]\n"
+        "[[component]]\nname = \"c\"\n[[component.plate]]\nsize_m = [1, 1]\n"
+        "normal = [0, 0, 1]\ntangent = [1, 0, 0]\nmaterial = \"m\"\nback_material = \"n\"\n"
+        "[materials.m]\nbrdf = \"table\"\nfile = \"rows.csv\"\n"
+        "[materials.n]\nbrdf = \"table\"\nfile = \"rows.csv\"\n"
+        "[materials.n.bands.R]\nfloor_per_sr = 0.06\n";
+    const folder f = make_folder(scenario);
+    write_text(f.csv, "theta_i,theta_r,f\n20,0,.1\n20,10,.1\n20,20,.1\n20,60,.1\n20,70,.05\n"
+                      "20,80,.1\n");
+    glint_scenario *s;
+    glint_errors *errors = glint_errors_new();
+    ck_assert_int_eq(glint_scenario_read(f.toml, NULL, 0, &s, errors), GLINT_OK);
+    int n_gaps = 0;
+    for (size_t k = 0; k < glint_errors_count(errors); k++)
+        n_gaps += strstr(glint_errors_get(errors, k)->message, "nothing was measured") != NULL;
+    ck_assert_int_eq(n_gaps, 2); /* once with the row of 0.05, once without */
+    const satellite *sat = &s->satellite;
+    const brdf_lobe *b = &sat->materials[0].bands[0].lobes[0];
+    for (int band = 1; band < 3; band++)
+        ck_assert(brdf_material_same(&sat->materials[0].bands[0], &sat->materials[0].bands[band]));
+    ck_assert(sat->materials[0].bands[1].lobes[0].numbers != b->numbers);
+    ck_assert(brdf_material_same(&sat->materials[1].bands[0], &sat->materials[1].bands[1]));
+    ck_assert(!brdf_material_same(&sat->materials[1].bands[0], &sat->materials[1].bands[2]));
+    glint_scenario_free(s);
+    glint_errors_free(errors);
+    remove_folder(&f);
+}
+END_TEST
+
+/* What is wrong with rows that are each right. */
+START_TEST(test_table_refuses_rows_that_make_no_table)
+{
+    static const struct {
+        const char *rows;
+        int line;
+        const char *part;
+    } cases[] = {
+        {"theta_i,theta_r,f\n30,10,1\n30,20,2\n30,10,3\n30,40,1\n", 4, "in line 2"},
+        {"theta_i,theta_r,f\n30,10,1\n10,30,2\n30,10,1\n", 0, "measure 1 place of"},
+        {"theta_i,theta_r,f\n0.5,0.1,1\n0.5,0.2,2\n0.5,0.3,1\n", 2, "these look like radians"},
+        {"theta_i,thetar,f\n30,10,1\n30,20,2\n30,40,1\n", 3, "(did you mean 'thetar'?)"},
+        {"", 0, "found 0 rows of numbers"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const folder f = make_folder("[materials.m]\nbrdf = \"table\"\nfile = \"rows.csv\"\n");
+        write_text(f.csv, cases[k].rows);
+        glint_material *material;
+        glint_errors *errors = glint_errors_new();
+        ck_assert_int_eq(glint_material_read(f.toml, "m", NULL, &material, errors), GLINT_INPUT);
+        const glint_error *e = glint_errors_get(errors, 0);
+        ck_assert_msg(e->line == cases[k].line && strstr(e->message, cases[k].part), "%d: %s",
+                      e->line, e->message);
+        glint_errors_free(errors);
+        remove_folder(&f);
+    }
+}
+END_TEST
+
 /* A material that must be refused: the text, and where and what is said first. */
 typedef struct wrong {
     const char *keys; /* after brdf = "table", from line 3 on */
@@ -1012,6 +1157,7 @@ int main(void)
     Suite *suite = suite_create("table");
     TCase *nodes = add_case(suite, "nodes");
     tcase_add_loop_test(nodes, test_table_reproduces_its_nodes, 0, TABLE_KINDS);
+    tcase_add_loop_test(nodes, test_table_does_not_depend_on_the_order_of_rows, 0, TABLE_KINDS);
     tcase_add_test(nodes, test_table_averages_rows_of_one_place);
     tcase_add_test(nodes, test_table_of_one_place_is_constant);
     tcase_add_test(nodes, test_table_reads_scans_of_either_direction);
@@ -1033,6 +1179,8 @@ int main(void)
     tcase_add_test(truth, test_table_carries_the_plane_out_of_it);
     TCase *cover = add_case(suite, "coverage");
     tcase_add_test(cover, test_table_covers_what_lies_between_scans);
+    tcase_add_test(cover, test_table_covers_narrow_scans_near_the_mirror_direction_alone);
+    tcase_add_loop_test(cover, test_table_covers_its_own_rows, 0, TABLE_KINDS);
     tcase_add_test(cover, test_table_covers_what_lies_in_a_grid);
     tcase_add_test(cover, test_table_reports_the_part_of_the_hemisphere);
     tcase_add_test(cover, test_table_describes_itself);
@@ -1042,6 +1190,9 @@ int main(void)
     tcase_add_test(files, test_table_is_read_from_materials);
     tcase_add_test(files, test_table_warns_of_what_was_not_measured);
     tcase_add_test(files, test_table_reports_errors_at_their_places);
+    tcase_add_test(files, test_table_is_read_once_for_all_bands);
+    tcase_add_test(files, test_table_values_outside_are_told_of);
+    tcase_add_test(files, test_table_refuses_rows_that_make_no_table);
     tcase_add_test(files, test_table_reproduces_laboratory_files);
     return run_suite(suite);
 }

@@ -392,17 +392,47 @@ static void forget_file(void)
     unlink(temporary);
 }
 
-static glint_status choose_from(const char *content, const tle_query *query, tle *out,
+/* What to choose, and the set whose epoch is nearest to a moment (UTC quasi-JD), the earlier one on
+ * a tie. */
+typedef struct near_query {
+    const char *name;
+    int number;
+    double near_jd[2];
+} near_query;
+
+static glint_status choose_near(const char *path, place asked_from, const near_query *query,
+                                tle *out, glint_error *error)
+{
+    const tle_query wanted = {.name = query->name, .number = query->number};
+    tle_list list;
+    glint_errors *errors = glint_errors_new();
+    const glint_status status = tle_file_read(path, asked_from, &wanted, &list, errors);
+    if (status && error) *error = *glint_errors_get(errors, 0);
+    double least = INFINITY;
+    for (size_t k = 0; k < list.n; k++) {
+        const double *jd = list.sets[k].epoch_jd;
+        const double days = fabs((jd[0] - query->near_jd[0]) + (jd[1] - query->near_jd[1]));
+        if (days >= least) continue;
+        least = days;
+        *out = list.sets[k];
+    }
+    ck_assert_msg(status || list.n > 0, "no set and no error");
+    tle_list_free(&list);
+    glint_errors_free(errors);
+    return status;
+}
+
+static glint_status choose_from(const char *content, const near_query *query, tle *out,
                                 glint_error *error)
 {
     memset(error, 0, sizeof *error);
     const glint_status status =
-        tle_file_choose(file_of(content, strlen(content)), PLACE_NONE, query, out, error);
+        choose_near(file_of(content, strlen(content)), PLACE_NONE, query, out, error);
     forget_file();
     return status;
 }
 
-static void assert_choice_refused(const char *content, const tle_query *query, int line,
+static void assert_choice_refused(const char *content, const near_query *query, int line,
                                   const char *word)
 {
     tle out;
@@ -412,18 +442,18 @@ static void assert_choice_refused(const char *content, const tle_query *query, i
     ck_assert_msg(error.line == line, "line %d instead of %d: %s", error.line, line, error.message);
 }
 
-static const tle_query any = {NULL, 0, {2460881.5, 0.0}};
+static const near_query any = {NULL, 0, {2460881.5, 0.0}};
 
 /* From the file beside the tests. */
 static glint_status choose_here(const char *name, int number, double near_jd, tle *out,
                                 glint_error *error)
 {
-    const tle_query query = {name, number, {near_jd, 0.0}};
-    return tle_file_choose(path_in(TEST_DATA_DIR, "elements.3le"), (place){"run.toml", 9, 7},
-                           &query, out, error);
+    const near_query query = {name, number, {near_jd, 0.0}};
+    return choose_near(path_in(TEST_DATA_DIR, "elements.3le"), (place){"run.toml", 9, 7}, &query,
+                       out, error);
 }
 
-START_TEST(test_tle_file_choose_finds_by_name)
+START_TEST(test_tle_file_read_finds_by_name)
 {
     static const struct {
         const char *name;
@@ -440,7 +470,7 @@ START_TEST(test_tle_file_choose_finds_by_name)
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_finds_by_number_and_keeps_the_name)
+START_TEST(test_tle_file_read_finds_by_number_and_keeps_the_name)
 {
     tle out;
     glint_error error;
@@ -453,7 +483,7 @@ START_TEST(test_tle_file_choose_finds_by_number_and_keeps_the_name)
 END_TEST
 
 /* The file holds the ISS at 25, 26 and 28 July 2025, each at 0.16725053 d. */
-START_TEST(test_tle_file_choose_takes_the_nearest_epoch)
+START_TEST(test_tle_file_read_takes_the_nearest_epoch)
 {
     static const struct {
         double near_jd, epoch_jd;
@@ -468,19 +498,19 @@ START_TEST(test_tle_file_choose_takes_the_nearest_epoch)
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_takes_the_earlier_epoch_on_a_tie)
+START_TEST(test_tle_file_read_takes_the_earlier_epoch_on_a_tie)
 {
     tle out;
     glint_error error;
-    const tle_query half_way = {NULL, 25544, {2460882.0, 0.16725053}}; /* between 25 and 26 July */
-    ck_assert_int_eq(tle_file_choose(path_in(TEST_DATA_DIR, "elements.3le"), PLACE_NONE, &half_way,
-                                     &out, &error),
-                     GLINT_OK);
+    const near_query half_way = {NULL, 25544, {2460882.0, 0.16725053}}; /* between 25 and 26 July */
+    ck_assert_int_eq(
+        choose_near(path_in(TEST_DATA_DIR, "elements.3le"), PLACE_NONE, &half_way, &out, &error),
+        GLINT_OK);
     assert_near(out.epoch_jd[0], 2460881.5, 0.0);
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_reads_files_without_names)
+START_TEST(test_tle_file_read_reads_files_without_names)
 {
     char content[512];
     tle out;
@@ -496,21 +526,21 @@ START_TEST(test_tle_file_choose_reads_files_without_names)
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_shortens_long_names)
+START_TEST(test_tle_file_read_shortens_long_names)
 {
     char content[512];
     tle out;
     glint_error error;
-    const char *name = "A NAME OF MORE THAN THIRTY-ONE CHARACTERS";
+    const char *name = "A NAME OF MORE THAN SIXTY-THREE CHARACTERS, WHICH NO CATALOGUE HAS";
     snprintf(content, sizeof content, "%s\n%s\n%s\n", name, iss1, iss2);
-    const tle_query query = {name, 0, {2460881.5, 0.0}};
+    const near_query query = {name, 0, {2460881.5, 0.0}};
     ck_assert_int_eq(choose_from(content, &query, &out, &error), GLINT_OK);
-    ck_assert_uint_eq(strlen(out.name), 31);
-    ck_assert_int_eq(strncmp(out.name, name, 31), 0);
+    ck_assert_uint_eq(strlen(out.name), 63);
+    ck_assert_int_eq(strncmp(out.name, name, 63), 0);
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_suggests_the_nearest_name)
+START_TEST(test_tle_file_read_suggests_the_nearest_name)
 {
     tle out;
     glint_error error;
@@ -528,18 +558,19 @@ START_TEST(test_tle_file_choose_suggests_the_nearest_name)
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_names_the_satellites_when_several_fit)
+START_TEST(test_tle_file_read_names_the_satellites_when_several_fit)
 {
     tle out;
     glint_error error;
     ck_assert_int_eq(choose_here(NULL, 0, 2460881.5, &out, &error), GLINT_INPUT);
     ck_assert_msg(strstr(error.message, "ISS (ZARYA) (25544), MADE-UP GEO (41866), MADE-UP "
-                                        "MOLNIYA (99901); say which one by its name or number"),
+                                        "MOLNIYA (99901); say which one by its name, number or "
+                                        "designator"),
                   "%s", error.message);
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_names_five_satellites_at_most)
+START_TEST(test_tle_file_read_names_five_satellites_at_most)
 {
     char content[2048] = "", number[16];
     for (int k = 0; k < 7; k++) {
@@ -551,14 +582,14 @@ START_TEST(test_tle_file_choose_names_five_satellites_at_most)
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_asks_for_the_number_where_a_name_stands_twice)
+START_TEST(test_tle_file_read_asks_for_the_number_where_a_name_stands_twice)
 {
     char content[1024];
     snprintf(content, sizeof content, "OBJECT A\n%s\n%s\nOBJECT A\n%s\n%s\n", iss1, iss2,
              with(with(iss1, 3, "25545"), 69, "0"), with(with(iss2, 3, "25545"), 69, "6"));
-    const tle_query by_name = {"object a", 0, {2460881.5, 0.0}};
+    const near_query by_name = {"object a", 0, {2460881.5, 0.0}};
     assert_choice_refused(content, &by_name, 0, "say which one by its number");
-    const tle_query by_number = {"object a", 25545, {2460881.5, 0.0}};
+    const near_query by_number = {"object a", 25545, {2460881.5, 0.0}};
     tle out;
     glint_error error;
     ck_assert_int_eq(choose_from(content, &by_number, &out, &error), GLINT_OK);
@@ -567,19 +598,19 @@ START_TEST(test_tle_file_choose_asks_for_the_number_where_a_name_stands_twice)
 END_TEST
 
 /* A file that ends within a set is refused, wherever it ends. */
-START_TEST(test_tle_file_choose_refuses_files_cut_at_any_byte)
+START_TEST(test_tle_file_read_refuses_files_cut_at_any_byte)
 {
     char whole[512];
     const int size = snprintf(whole, sizeof whole, "0 ISS (ZARYA)\n%s\n%s\n", iss1, iss2);
-    static const tle_query queries[] = {{NULL, 0, {2460881.5, 0.0}},
-                                        {"ISS (ZARYA)", 0, {2460881.5, 0.0}},
-                                        {NULL, 25544, {2460881.5, 0.0}}};
+    static const near_query queries[] = {{NULL, 0, {2460881.5, 0.0}},
+                                         {"ISS (ZARYA)", 0, {2460881.5, 0.0}},
+                                         {NULL, 25544, {2460881.5, 0.0}}};
     for (int n = 0; n < size; n++)
         for (int q = 0; q < 3; q++) {
             tle out;
             glint_error error = {0};
             const glint_status status =
-                tle_file_choose(file_of(whole, (size_t)n), PLACE_NONE, &queries[q], &out, &error);
+                choose_near(file_of(whole, (size_t)n), PLACE_NONE, &queries[q], &out, &error);
             forget_file();
             /* without the last line end the set is still whole */
             ck_assert_msg((status == GLINT_OK) == (n >= size - 1), "cut to %d bytes", n);
@@ -590,7 +621,7 @@ START_TEST(test_tle_file_choose_refuses_files_cut_at_any_byte)
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_places_errors_of_the_set)
+START_TEST(test_tle_file_read_places_errors_of_the_set)
 {
     char content[1024];
     snprintf(content, sizeof content, "# comment\n0 ISS\n%s\n%s\n", iss1, with(iss2, 69, "7"));
@@ -606,12 +637,12 @@ START_TEST(test_tle_file_choose_places_errors_of_the_set)
 END_TEST
 
 /* Faults in the sets of other satellites do not matter. */
-START_TEST(test_tle_file_choose_ignores_faults_in_other_sets)
+START_TEST(test_tle_file_read_ignores_faults_in_other_sets)
 {
     char content[1024];
     tle out;
     glint_error error;
-    const tle_query query = {"HST", 0, {2460881.5, 0.0}};
+    const near_query query = {"HST", 0, {2460881.5, 0.0}};
     snprintf(content, sizeof content, "0 ISS\n%s\n%s\n0 HST\n%s\n%s\n", with(iss1, 63, "4"),
              with(iss2, 9, "xxx"), iss1, iss2);
     ck_assert_int_eq(choose_from(content, &query, &out, &error), GLINT_OK);
@@ -619,7 +650,7 @@ START_TEST(test_tle_file_choose_ignores_faults_in_other_sets)
 }
 END_TEST
 
-START_TEST(test_tle_file_choose_refuses_what_is_no_file_of_element_sets)
+START_TEST(test_tle_file_read_refuses_what_is_no_file_of_element_sets)
 {
     tle out;
     glint_error error = {0};
@@ -628,20 +659,20 @@ START_TEST(test_tle_file_choose_refuses_what_is_no_file_of_element_sets)
     assert_choice_refused("", &any, 0, "no element set");
     assert_choice_refused("ISS\nHST\n", &any, 0, "no element set");
     ck_assert_int_eq(
-        tle_file_choose(file_of(with_nul, sizeof with_nul), PLACE_NONE, &any, &out, &error),
+        choose_near(file_of(with_nul, sizeof with_nul), PLACE_NONE, &any, &out, &error),
         GLINT_INPUT);
     ck_assert_ptr_nonnull(strstr(error.message, "not a text file"));
     forget_file();
-    ck_assert_int_eq(tle_file_choose("/nonexistent/file.tle", PLACE_NONE, &any, &out, &error),
+    ck_assert_int_eq(choose_near("/nonexistent/file.tle", PLACE_NONE, &any, &out, &error),
                      GLINT_INPUT);
     ck_assert_ptr_nonnull(strstr(error.message, "cannot open"));
-    ck_assert_int_eq(tle_file_choose("/tmp", PLACE_NONE, &any, &out, &error), GLINT_INPUT);
+    ck_assert_int_eq(choose_near("/tmp", PLACE_NONE, &any, &out, &error), GLINT_INPUT);
     ck_assert_ptr_nonnull(strstr(error.message, "directory"));
 }
 END_TEST
 
 /* Files that others wrote. */
-START_TEST(test_tle_file_choose_reads_samples)
+START_TEST(test_tle_file_read_reads_samples)
 {
     const char *dir = reference_dir("element sets in samples/");
     if (!dir) return;
@@ -656,9 +687,9 @@ START_TEST(test_tle_file_choose_reads_samples)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         tle out;
         glint_error error;
-        const tle_query query = {NULL, cases[k].number, {2460881.5, 0.0}};
+        const near_query query = {NULL, cases[k].number, {2460881.5, 0.0}};
         const glint_status status =
-            tle_file_choose(path_in(dir, cases[k].file), PLACE_NONE, &query, &out, &error);
+            choose_near(path_in(dir, cases[k].file), PLACE_NONE, &query, &out, &error);
         ck_assert_msg(status == GLINT_OK, "%s: %s", cases[k].file, error.message);
         ck_assert_str_eq(out.name, cases[k].name);
     }
@@ -701,21 +732,21 @@ static TCase *refusal_tests(void)
 static TCase *file_tests(void)
 {
     TCase *files = tcase_create("files");
-    tcase_add_test(files, test_tle_file_choose_finds_by_name);
-    tcase_add_test(files, test_tle_file_choose_finds_by_number_and_keeps_the_name);
-    tcase_add_test(files, test_tle_file_choose_takes_the_nearest_epoch);
-    tcase_add_test(files, test_tle_file_choose_takes_the_earlier_epoch_on_a_tie);
-    tcase_add_test(files, test_tle_file_choose_reads_files_without_names);
-    tcase_add_test(files, test_tle_file_choose_shortens_long_names);
-    tcase_add_test(files, test_tle_file_choose_suggests_the_nearest_name);
-    tcase_add_test(files, test_tle_file_choose_names_the_satellites_when_several_fit);
-    tcase_add_test(files, test_tle_file_choose_names_five_satellites_at_most);
-    tcase_add_test(files, test_tle_file_choose_asks_for_the_number_where_a_name_stands_twice);
-    tcase_add_test(files, test_tle_file_choose_refuses_files_cut_at_any_byte);
-    tcase_add_test(files, test_tle_file_choose_places_errors_of_the_set);
-    tcase_add_test(files, test_tle_file_choose_ignores_faults_in_other_sets);
-    tcase_add_test(files, test_tle_file_choose_refuses_what_is_no_file_of_element_sets);
-    tcase_add_test(files, test_tle_file_choose_reads_samples);
+    tcase_add_test(files, test_tle_file_read_finds_by_name);
+    tcase_add_test(files, test_tle_file_read_finds_by_number_and_keeps_the_name);
+    tcase_add_test(files, test_tle_file_read_takes_the_nearest_epoch);
+    tcase_add_test(files, test_tle_file_read_takes_the_earlier_epoch_on_a_tie);
+    tcase_add_test(files, test_tle_file_read_reads_files_without_names);
+    tcase_add_test(files, test_tle_file_read_shortens_long_names);
+    tcase_add_test(files, test_tle_file_read_suggests_the_nearest_name);
+    tcase_add_test(files, test_tle_file_read_names_the_satellites_when_several_fit);
+    tcase_add_test(files, test_tle_file_read_names_five_satellites_at_most);
+    tcase_add_test(files, test_tle_file_read_asks_for_the_number_where_a_name_stands_twice);
+    tcase_add_test(files, test_tle_file_read_refuses_files_cut_at_any_byte);
+    tcase_add_test(files, test_tle_file_read_places_errors_of_the_set);
+    tcase_add_test(files, test_tle_file_read_ignores_faults_in_other_sets);
+    tcase_add_test(files, test_tle_file_read_refuses_what_is_no_file_of_element_sets);
+    tcase_add_test(files, test_tle_file_read_reads_samples);
     return files;
 }
 

@@ -183,12 +183,12 @@ START_TEST(test_visibility_two_plates_give_the_flux_ratio)
             light.i[j][k] = sun[j], light.r[j][k] = observer[j];
     }
     brdf_light_finish(&light);
-    model_sum(&s->model, &light, s->visible, x);
+    model_sum(&s->model, &light, NULL, s->visible, x);
     for (int k = 0; k < BRDF_TILE; k++)
         assert_rel(x[k] / 1e12, 1.251929862639295e-12, 1e-14);
     for (int k = 0; k < BRDF_TILE; k++)
         s->visible[BRDF_TILE + k] = 0.0; /* the lower plate alone */
-    model_sum(&s->model, &light, s->visible, x);
+    model_sum(&s->model, &light, NULL, s->visible, x);
     assert_rel(x[7] / 1e12, 8.620814620224570e-13, 1e-14);
     scene_free(s);
 }
@@ -491,7 +491,7 @@ static double total(const scene *s, const double sun[3], const double observer[3
         for (int j = 0; j < 3; j++)
             light.i[j][k] = sun[j], light.r[j][k] = observer[j];
     brdf_light_finish(&light);
-    model_sum(&s->model, &light, visible, x);
+    model_sum(&s->model, &light, NULL, visible, x);
     for (int k = 0; k < s->model.n_spans; k++)
         sum += x[k * BRDF_TILE];
     return sum;

@@ -154,6 +154,12 @@ glint_status glint_curve_next(glint_curve *curve, const glint_row **rows, size_t
 int64_t glint_curve_done(const glint_curve *curve);
 /* Number of threads that it computes with. */
 int glint_curve_threads(const glint_curve *curve);
+/* Measured material k from 0 of those whose table does not cover the hemisphere, and in how many of
+ * the rows handed out so far some facet of it was lit and seen at angles between which nothing was
+ * measured: the nearest measured values were taken there. False past the end. *material borrowed.
+ */
+bool glint_curve_unmeasured(const glint_curve *curve, size_t k, const char **material,
+                            int64_t *rows);
 /* Name of the first band, "V". Borrowed. */
 const char *glint_curve_band(const glint_curve *curve);
 /* Time between rows in s; 0 where the scenario gives directions instead of times. */
@@ -399,6 +405,7 @@ glint_status glint_verify(const char *path, const char *const *overrides, size_t
 typedef struct glint_brdf_param {
     const char *name, *unit, *doc;
     double min, max;      /* may be infinite */
+    bool min_open, max_open; /* that end does not belong to the range */
     double default_value; /* where not required */
     bool required;
     int dimensions; /* 0: a number; 2: rows of numbers, each in the range */
@@ -412,6 +419,9 @@ const char *glint_brdf_source(size_t k);
 /* Parameter j of model k; false past the end. */
 bool glint_brdf_parameter(size_t k, size_t j, glint_brdf_param *out);
 
+/* Whether glint_brdf_fit takes model k: it has values everywhere, and numbers alone as parameters. */
+bool glint_brdf_can_be_fitted(size_t k);
+
 /* How a file of measured BRDF values is laid out: rows of numbers, parted by commas, semicolons or
  * blanks; lines that begin with # are skipped. Zero-initialise for what is usual. */
 typedef struct glint_brdf_layout {
@@ -422,6 +432,8 @@ typedef struct glint_brdf_layout {
     const char *columns;
     bool signed_zenith; /* theta may be negative, which means the opposite azimuth */
     bool radians;       /* angles in rad instead of deg */
+    bool unit_given;    /* deg are meant where radians is false, also if they look like rad: none
+                           from the normal above pi/2 and no azimuth above 2 pi */
     double floor;       /* 1/sr; rows with f at or below it are left out */
 } glint_brdf_layout;
 
@@ -541,9 +553,20 @@ const char *glint_material_model(const glint_material *material);
 glint_status glint_material_brdf(const glint_material *material, double theta_i, double phi_i,
                                  double theta_r, double phi_r, double *f, glint_error *error);
 
+/* Whether what is measured of a material was measured around these directions (as above, not below
+ * the horizon): between its measurements. Elsewhere f is the nearest measured one. True of materials
+ * without measured tables. */
+bool glint_material_covers(const glint_material *material, double theta_i, double phi_i,
+                           double theta_r, double phi_r);
+
+/* The part of the light from an incidence theta_i (rad, 0 <= theta_i < pi/2) that goes into the
+ * mirror direction alone, as off a perfect mirror: it is no part of f, and part of the reflectance.
+ * 0 for other surfaces, and for other angles. */
+double glint_material_mirrored(const glint_material *material, double theta_i);
+
 /* The directional-hemispherical reflectance: the part of the light from one direction that is sent
  * back. theta_i: rad, 0 <= theta_i < pi/2. error_bound: estimate of the absolute error of *dhr,
- * NULL allowed; 1e-8 of it is aimed at. Errors: GLINT_ARGUMENT for theta_i; GLINT_INPUT where so
+ * NULL allowed; 1e-8 of it is aimed at, 1e-5 of measured tables. Errors: GLINT_ARGUMENT for theta_i; GLINT_INPUT where so
  * much could not be reached (*dhr and *error_bound hold what was); GLINT_INTERNAL. */
 glint_status glint_material_dhr(const glint_material *material, double theta_i, double phi_i,
                                 double *dhr, double *error_bound, glint_error *error);
@@ -574,6 +597,8 @@ typedef struct glint_material_view {
                         them. Pictures are as fine as they need be */
     const char *angles; /* file with columns theta_i_deg, phi_i_deg, theta_r_deg, phi_r_deg; of
                            GLINT_VIEW_ANGLES */
+    bool unit_given;    /* its angles are in deg indeed, also if they look like rad: none from the
+                           normal above pi/2 and no azimuth above 2 pi */
     const char *const *labels; /* what materials are called in columns and legends; NULL: by name */
     bool logarithmic;          /* scale of the picture */
 } glint_material_view;

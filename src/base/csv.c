@@ -103,6 +103,7 @@ static glint_status read_line(reader *r, int *n)
                               "expected a comma or the end of the line after the closing quote");
         if (!more) {
             char *line_end = r->at;
+            r->table->may_be_cut = r->at >= r->end;
             if (r->at < r->end) next_line(r);
             if (line_end < r->end) *line_end = '\0';
             if (stop) *stop = '\0';
@@ -195,7 +196,6 @@ glint_status csv_read(const char *path, place asked_from, csv_table *table, glin
         const size_t bom = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
         reader r = {table, errors, bytes + bom, bytes + size, 1, bytes + bom, 0, 0};
         status = read_all(&r);
-        table->unended_line = size > bom && bytes[size - 1] != '\n' ? r.line : 0;
     }
     if (status) csv_free(table);
     return status;
@@ -207,6 +207,16 @@ void csv_free(csv_table *table)
     free(table->bytes);
     free(table->cells);
     *table = (csv_table){0};
+}
+
+void csv_leave_out_cut_row(csv_table *table, glint_errors *errors)
+{
+    if (!table->may_be_cut || table->n_rows == 0) return;
+    errors_warn(errors, csv_place(table, csv_at(table, table->n_rows - 1, 0)),
+                "the last row has no line end: it may be cut and is left out; get the file again, "
+                "or end the line if it is whole");
+    table->n_rows--;
+    table->may_be_cut = false;
 }
 
 int csv_column(const csv_table *table, const char *name)

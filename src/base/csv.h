@@ -18,13 +18,18 @@ typedef struct csv_table {
     csv_cell *cells; /* owned; (n_rows + 1) x n_columns, the header's first */
     int n_columns;
     long n_rows;
-    int unended_line; /* number of the last line where it has no line end, and may be cut; else 0 */
+    bool may_be_cut; /* the last row ends with the file, without a line end */
 } csv_table;
 
 /* Reads a file. Errors (all of the file, GLINT_INPUT): unreadable, no header, a repeated or empty
  * column name, rows of another length, a quote without end. On error the table is empty. */
 glint_status csv_read(const char *path, place asked_from, csv_table *table, glint_errors *errors);
 void csv_free(csv_table *table);
+
+/* Leaves out a last row without line end, with a warning that names its line: the file may have
+ * been cut within its last number. For tables that a longer or shorter version makes no less sound.
+ */
+void csv_leave_out_cut_row(csv_table *table, glint_errors *errors);
 
 /* Column of that name, or -1. */
 int csv_column(const csv_table *table, const char *name);

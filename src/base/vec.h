@@ -180,6 +180,57 @@ static inline void quat_from_mat(const double r[9], double q[4])
         q[i] *= s;
 }
 
+/* out = a b (Hamilton): the turn b, then the turn a. */
+static inline void quat_mul(const double a[4], const double b[4], double out[4])
+{
+    const double w = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+    const double x = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+    const double y = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
+    const double z = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
+    out[0] = w, out[1] = x, out[2] = y, out[3] = z;
+}
+
+/* q*: the turn back. */
+static inline void quat_conjugate(const double q[4], double out[4])
+{
+    out[0] = q[0], out[1] = -q[1], out[2] = -q[2], out[3] = -q[3];
+}
+
+static inline double quat_dot(const double a[4], const double b[4])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+/* Unit quaternion of a turn by `angle` rad, right-handed, about the unit `axis`. */
+static inline void quat_turn(const double axis[3], double angle, double out[4])
+{
+    out[0] = cos(0.5 * angle);
+    scale3(axis, sin(0.5 * angle), out + 1);
+}
+
+/* The part `f` of the turn q (unit): the same axis, f times the angle, which is 2 acos(w), 0 to
+ * 2 pi. q = (-1, 0, 0, 0), a full turn about no axis, gives no turn. */
+static inline void quat_part(const double q[4], double f, double out[4])
+{
+    double axis[3];
+    const double half = atan2(unit3(q + 1, axis), q[0]);
+    quat_turn(axis, 2.0 * f * half, out);
+}
+
+/* From a (f = 0) to b (f = 1) by the shortest way at a steady rate (Shoemake 1985); q and -q are
+ * the same turn. a, b: unit. */
+static inline void quat_slerp(const double a[4], const double b[4], double f, double out[4])
+{
+    double back[4], way[4];
+    quat_conjugate(a, back);
+    quat_mul(b, back, way);
+    if (way[0] < 0)
+        for (int i = 0; i < 4; i++)
+            way[i] = -way[i];
+    quat_part(way, f, way);
+    quat_mul(way, a, out);
+}
+
 /* Index 0..2 of the component that is largest (smallest) by absolute value; first on a tie. */
 static inline int largest3(const double a[3])
 {

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In the order of the listings: diffuse, lobes, microfacets, scatter, powders, measurements. */
+/* In the order of the listings: diffuse, lobes, microfacets and mirrors, scatter, powders,
+ * measurements. */
 static const brdf_model *const models[] = {
     &brdf_lambert,
     &brdf_oren_nayar,
@@ -21,6 +22,7 @@ static const brdf_model *const models[] = {
     &brdf_cook_torrance,
     &brdf_ggx,
     &brdf_five_parameter,
+    &brdf_mirror,
     &brdf_abg,
     &brdf_binomial,
     &brdf_lommel_seeliger,
@@ -97,6 +99,17 @@ double brdf_material_eval(const brdf_material *material, const double i[3], cons
     return g;
 }
 
+double brdf_material_specular(const brdf_material *material, double ci)
+{
+    double part = 0.0;
+    for (int k = 0; k < material->n_lobes; k++) {
+        const brdf_lobe *lobe = &material->lobes[k];
+        if (lobe->model->specular)
+            part += lobe->weight * lobe->model->specular(brdf_lobe_coef(lobe), ci);
+    }
+    return part;
+}
+
 void brdf_material_tile(const brdf_material *material, const brdf_facets *facets,
                         const brdf_light *light, const double *visible, double sum[BRDF_TILE])
 {
@@ -104,6 +117,13 @@ void brdf_material_tile(const brdf_material *material, const brdf_facets *facets
         const brdf_lobe *lobe = &material->lobes[k];
         lobe->model->tile(brdf_lobe_coef(lobe), lobe->weight, facets, light, visible, sum);
     }
+}
+
+bool brdf_material_is_measured(const brdf_material *material)
+{
+    for (int k = 0; k < material->n_lobes; k++)
+        if (material->lobes[k].model->flags & BRDF_MEASURED) return true;
+    return false;
 }
 
 static bool same_number(double a, double b)
@@ -163,6 +183,8 @@ bool glint_brdf_parameter(size_t k, size_t j, glint_brdf_param *out)
                               .doc = p->doc,
                               .min = p->min,
                               .max = p->max,
+                              .min_open = p->flags & PARAM_MIN_OPEN,
+                              .max_open = p->flags & PARAM_MAX_OPEN,
                               .default_value = p->def,
                               .dimensions = p->flags & PARAM_ROWS ? 2 : 0,
                               .required = param_is_required(p)};

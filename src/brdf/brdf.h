@@ -43,7 +43,8 @@ enum {
     BRDF_ISOTROPIC = 1u << 0,      /* does not depend on the tangent */
     BRDF_NOT_RECIPROCAL = 1u << 1, /* f(i,r) != f(r,i), documented in `doc` */
     BRDF_WAVELENGTH = 1u << 2,     /* takes k_per_um and wavelength_um: both or neither */
-    BRDF_MEASURED = 1u << 3        /* takes the rows of a file: table_prepare makes its lobes */
+    BRDF_MEASURED = 1u << 3,       /* takes the rows of a file: table_prepare makes its lobes */
+    BRDF_PASSIVE = 1u << 4         /* reflects at most what it gets, whatever its parameters are */
 };
 
 struct brdf_lobe;
@@ -71,6 +72,10 @@ typedef struct brdf_model {
      * result depends on that lane alone, and its facets are added in their order. */
     void (*tile)(const double *coef, double weight, const brdf_facets *facets,
                  const brdf_light *light, const double *visible, double sum[BRDF_TILE]);
+    /* Of models that send light into the mirror direction alone, a delta function in f: the
+     * reflectance there, 0 to 1, at an incidence of cosine 0 < ci <= 1. eval and tile leave that
+     * light out. NULL: there is none. */
+    double (*specular)(const double *coef, double ci);
 } brdf_model;
 
 /* The table: model k from 0, NULL past the end. */
@@ -119,9 +124,14 @@ typedef struct brdf_material {
 
 /* g = f ci cr of a material, facet frame. */
 double brdf_material_eval(const brdf_material *material, const double i[3], const double r[3]);
+/* The part of the light from an incidence of cosine 0 < ci <= 1 that goes into the mirror direction
+ * alone: the weighted sum of brdf_model.specular, 0 where no lobe is a mirror. */
+double brdf_material_specular(const brdf_material *material, double ci);
 /* sum[k] += ... over all lobes, as brdf_model.tile. */
 void brdf_material_tile(const brdf_material *material, const brdf_facets *facets,
                         const brdf_light *light, const double *visible, double sum[BRDF_TILE]);
+/* True when some lobe is measured values: those are good to a percent or so. */
+bool brdf_material_is_measured(const brdf_material *material);
 /* True when two materials are the same function: their sums may be shared. */
 bool brdf_material_same(const brdf_material *a, const brdf_material *b);
 void brdf_material_free(brdf_material *material);

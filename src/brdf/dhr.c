@@ -11,7 +11,8 @@
  * Polar coordinates around the origin: in the radius rho = R v^4, v = 1 - (1 - w)^2, 0 <= w <= 1,
  * where R is the circle's: the power resolves lobes down to slopes of 1e-6, and the square makes
  * the roots smooth that some models have at grazing observation. The azimuth runs over quadrants.
- * Each lobe is integrated by itself, since their widths differ. */
+ * Each lobe is integrated by itself, since their widths differ. What mirrors reflect is known
+ * without. */
 #include "brdf/dhr.h"
 
 #include "base/constants.h"
@@ -271,6 +272,7 @@ glint_status brdf_dhr(const brdf_material *material, double theta_i, double phi_
         sum += value;
         bound += value_error;
     }
+    sum += brdf_material_specular(material, ci);
     *dhr = sum;
     if (error_bound) *error_bound = bound;
     if (bound <= tolerance * sum * (1.0 + 1e-9)) return GLINT_OK;
@@ -286,7 +288,8 @@ glint_status brdf_dhr(const brdf_material *material, double theta_i, double phi_
  * the first look, which is good to about SCAN_TOLERANCE, is looked at again. */
 static bool gains_at(const brdf_material *material, double theta_i, double phi_i, double *dhr)
 {
-    static const double in_doubt = 10.0 * SCAN_TOLERANCE, fine = 1e-7, surplus = 1e-6;
+    static const double in_doubt = 10.0 * SCAN_TOLERANCE, surplus = 1e-6;
+    const double fine = brdf_material_is_measured(material) ? 1e-5 : 1e-7;
     double bound = 0.0;
     *dhr = 0.0;
     (void)brdf_dhr(material, theta_i, phi_i, SCAN_TOLERANCE, dhr, &bound, NULL);

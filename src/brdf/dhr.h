@@ -5,7 +5,8 @@
 
 #include "brdf/brdf.h"
 
-/* The integral of f cr over the hemisphere of directions to the observer, a pure number.
+/* The integral of f cr over the hemisphere of directions to the observer, mirrors included, a pure
+ * number.
  *
  * theta_i: zenith angle of the source, rad, 0 <= theta_i < pi/2; phi_i: its azimuth from the
  * tangent towards the bitangent, rad. relative_tolerance: wanted of the result; below 1e-12 as
@@ -21,7 +22,7 @@ glint_status brdf_dhr(const brdf_material *material, double theta_i, double phi_
 /* The largest reflectance that was found, and where. */
 typedef struct brdf_energy {
     double theta_i, phi_i; /* rad */
-    double dhr;            /* to 1e-3 of it, and to 1e-7 where it is near 1 */
+    double dhr; /* to 1e-3 of it, and where it is near 1 to 1e-7, or 1e-5 of measured values */
 } brdf_energy;
 
 /* Looks for the incidence at which a material reflects most: zenith angles from 0 to 85 deg and,

@@ -20,6 +20,9 @@ typedef struct fit_form {
     const brdf_model *lobes[FIT_MAX_LOBES];
 } fit_form;
 
+/* Whether a model can be a term of a sum: it has values everywhere, and single numbers as
+ * parameters. */
+bool fit_takes(const brdf_model *model);
 /* Reads a sum of terms, each NAME or N*NAME, from the n bytes at s ("lambert+2*ward-gmd"; blanks
  * are skipped). Errors (GLINT_ARGUMENT): an empty term, a model that is unknown or cannot be
  * fitted, too many lobes or parameters, and a model whose one parameter is its strength twice. */

@@ -35,6 +35,25 @@ static glint_status refuse_name(const char *name, glint_error *error)
                      near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 
+bool fit_takes(const brdf_model *model)
+{
+    return !model->prepare_lobe && !model->specular;
+}
+
+/* Says why a model cannot be fitted. */
+static glint_status refuse_model(const brdf_model *model, glint_error *error)
+{
+    if (model->specular)
+        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                         "'%s' cannot be fitted: f is a delta function, which no measurement has; "
+                         "fit a narrow lobe such as ward-gmd",
+                         model->name);
+    return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                     "'%s' cannot be fitted: it takes more than single numbers; models of numbers "
+                     "alone are ward-gmd, abg, phong and others of 'glint brdf list'",
+                     model->name);
+}
+
 static void trim(const char **s, size_t *n)
 {
     while (*n > 0 && isspace((unsigned char)**s))
@@ -79,9 +98,7 @@ static glint_status read_term(const char *s, size_t n, fit_form *form, glint_err
     name[kept] = '\0';
     const brdf_model *model = brdf_model_named(name);
     if (!model) return refuse_name(name, error);
-    if (model->prepare_lobe)
-        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
-                         "'%s' cannot be fitted: it takes more than single numbers", name);
+    if (!fit_takes(model)) return refuse_model(model, error);
     if (form->n_lobes + count > FIT_MAX_LOBES)
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE, "the sum has more than %d lobes",
                          FIT_MAX_LOBES);

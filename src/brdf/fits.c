@@ -42,6 +42,12 @@ void glint_brdf_fits_free(glint_brdf_fits *fits)
     free(fits);
 }
 
+bool glint_brdf_can_be_fitted(size_t k)
+{
+    const brdf_model *model = brdf_model_at(k);
+    return model && fit_takes(model);
+}
+
 /* ------------------------------------------------------------------ columns */
 
 /* Which quantity is called by the n bytes at `name`; -1 for none. */
@@ -83,8 +89,10 @@ static glint_status read_column(char *item, measured_format *format, glint_error
 static glint_status read_layout(const glint_brdf_layout *layout, measured_format *format,
                                 char **names, glint_error *error)
 {
-    *format = (measured_format){
-        .signed_zenith = layout->signed_zenith, .radians = layout->radians, .floor = layout->floor};
+    *format = (measured_format){.signed_zenith = layout->signed_zenith,
+                                .radians = layout->radians,
+                                .unit_given = layout->unit_given,
+                                .floor = layout->floor};
     *names = NULL;
     if (!(layout->floor >= 0.0 && isfinite(layout->floor)))
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,

@@ -30,7 +30,7 @@ const brdf_model brdf_lommel_seeliger = {
               "Emittance Spectroscopy",
     .params = params,
     .n_params = sizeof params / sizeof params[0],
-    .flags = BRDF_ISOTROPIC,
+    .flags = BRDF_ISOTROPIC | BRDF_PASSIVE,
     .prepare = prepare,
     .eval = brdf_eval,
     .tile = brdf_tile,

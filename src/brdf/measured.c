@@ -1,6 +1,7 @@
 /* measured.c: reads files of measured BRDF values. */
 #include "brdf/measured.h"
 
+#include "base/angle.h"
 #include "base/constants.h"
 #include "base/text.h"
 
@@ -44,12 +45,14 @@ typedef struct reader {
     measured *out;
     int capacity; /* points */
     glint_errors *errors;
-    glint_status status;         /* the worst so far */
-    line comment;                /* the last one so far */
-    cells header, row;           /* the row that is being read */
-    bool knows_columns;          /* once the first row is there */
-    int n_cells;                 /* of every row */
-    int index[MEASURED_COLUMNS]; /* cell of each quantity, -1 for none */
+    glint_status status;              /* the worst so far */
+    line comment;                     /* the last one so far */
+    cells header, row;                /* the row that is being read */
+    bool knows_columns;               /* once the first row is there */
+    int n_cells;                      /* of every row */
+    int index[MEASURED_COLUMNS];      /* cell of each quantity, -1 for none */
+    double most_zenith, most_azimuth; /* largest angles without their signs, in the file's unit */
+    place most_zenith_at;
 } reader;
 
 const char *measured_name(int quantity)
@@ -149,6 +152,39 @@ static int find_name(const cells *header, const char *name)
     return -1;
 }
 
+static bool has_no_columns(const measured_format *format)
+{
+    for (int q = 0; q < MEASURED_COLUMNS; q++)
+        if (format->column[q].name || format->column[q].number) return false;
+    return true;
+}
+
+/* Whether a column of that name is wanted for some quantity. */
+static bool is_wanted(const measured_format *format, const char *name)
+{
+    const bool usual = has_no_columns(format);
+    for (int q = 0; q < MEASURED_COLUMNS; q++) {
+        const char *wanted = usual ? names[q] : format->column[q].name;
+        if (wanted && string_equal(wanted, name)) return true;
+    }
+    return false;
+}
+
+/* The columns of the header that have no use yet, as terminated names in *all, which they borrow.
+ */
+static size_t unused_names(const reader *r, text *all, const char *out[MOST_COLUMNS])
+{
+    size_t n = 0;
+    for (int k = 0; k < r->header.n; k++) {
+        text_append(all, r->header.at[k].text, r->header.at[k].length);
+        text_char(all, '\0');
+    }
+    const char *at = all->failed ? NULL : all->data;
+    for (int k = 0; at && k < r->header.n; k++, at += strlen(at) + 1)
+        if (!is_wanted(r->format, at)) out[n++] = at;
+    return n;
+}
+
 /* Says that there is no column of that name, and which there are. */
 static void fail_name(reader *r, const char *name, place where)
 {
@@ -159,21 +195,20 @@ static void fail_name(reader *r, const char *name, place where)
                            r->path, name));
         return;
     }
-    text list = {0};
+    text list = {0}, all = {0};
+    const char *unused[MOST_COLUMNS];
+    const size_t n_unused = unused_names(r, &all, unused);
+    const char *near = nearest_name(name, unused, n_unused);
     for (int k = 0; k < r->header.n; k++) {
         text_add(&list, k ? ", " : "");
         text_append(&list, r->header.at[k].text, r->header.at[k].length);
     }
-    fail(r, errors_add(r->errors, GLINT_INPUT, where, "'%s' has no column '%.60s'; it has: %.600s",
-                       r->path, name, list.data ? list.data : ""));
+    fail(r, errors_add(r->errors, GLINT_INPUT, where,
+                       "'%s' has no column '%.60s'%s%.60s%s; it has: %.600s", r->path, name,
+                       near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "",
+                       list.data ? list.data : ""));
     text_free(&list);
-}
-
-static bool has_no_columns(const measured_format *format)
-{
-    for (int q = 0; q < MEASURED_COLUMNS; q++)
-        if (format->column[q].name || format->column[q].number) return false;
-    return true;
+    text_free(&all);
 }
 
 static bool may_be_absent(int quantity)
@@ -263,12 +298,14 @@ static bool read_zenith(reader *r, int quantity, double given, double *theta)
         *theta = fmin(fmax(*theta, least), right);
         return true;
     }
+    const bool lacks_sign = !is_signed && *theta < 0.0 && *theta > -right - PAST_HORIZON;
+    const bool may_be_deg = r->format->radians && fabs(given) <= 90.0;
     fail(r, errors_add(r->errors, GLINT_INPUT, place_of(r, quantity),
                        "%s is %.10g %s; expected %s90 deg from the normal%s", names[quantity],
                        given, r->format->radians ? "rad" : "deg", is_signed ? "-90 to " : "0 to ",
-                       !is_signed && *theta < 0.0 && *theta > -right - PAST_HORIZON
-                           ? " (signed angles need signed_zenith = true)"
-                           : ""));
+                       lacks_sign   ? " (signed angles need signed_zenith = true)"
+                       : may_be_deg ? " (degrees need angles = \"deg\")"
+                                    : ""));
     return false;
 }
 
@@ -277,6 +314,34 @@ static void set_direction(double theta, double phi, double out[3])
     out[0] = sin(theta) * cos(phi);
     out[1] = sin(theta) * sin(phi);
     out[2] = cos(theta);
+}
+
+/* Keeps the largest angles, for a look at their unit. */
+static void note_angles(reader *r, const double value[MEASURED_COLUMNS])
+{
+    for (int q = 0; q < MEASURED_F; q++) {
+        const bool is_zenith = q == MEASURED_THETA_I || q == MEASURED_THETA_R;
+        const double size = fabs(value[q]);
+        if (!is_zenith) {
+            r->most_azimuth = fmax(r->most_azimuth, size);
+        } else if (size > r->most_zenith) {
+            r->most_zenith = size;
+            r->most_zenith_at = place_of(r, q);
+        }
+    }
+}
+
+/* Refuses angles that are rad where nobody said so. */
+static void check_unit(reader *r)
+{
+    const measured_format *format = r->format;
+    if (format->radians || format->unit_given) return;
+    if (!angles_look_like_rad(r->most_zenith, r->most_azimuth)) return;
+    fail(r, errors_add(r->errors, GLINT_INPUT, r->most_zenith_at,
+                       "the largest angle from the normal is %.10g: these look like radians; "
+                       "expected degrees, or the unit said outright: angles = \"rad\", or angles = "
+                       "\"deg\" where degrees are so small (on a command line --angles)",
+                       r->most_zenith));
 }
 
 static bool push(reader *r, const measured_point *point)
@@ -306,6 +371,7 @@ static void read_row(reader *r)
         return;
     }
     if (!read_values(r, value)) return;
+    note_angles(r, value);
     const bool good_i = read_zenith(r, MEASURED_THETA_I, value[MEASURED_THETA_I], &theta_i);
     const bool good_r = read_zenith(r, MEASURED_THETA_R, value[MEASURED_THETA_R], &theta_r);
     const double f = value[MEASURED_F];
@@ -320,14 +386,25 @@ static void read_row(reader *r)
     const double unit = r->format->radians ? 1.0 : DEG;
     const double phi_i = value[MEASURED_PHI_I] * unit;
     const double phi_r = r->index[MEASURED_PHI_R] < 0 ? phi_i + PI : value[MEASURED_PHI_R] * unit;
-    measured_point point = {.f = f, .line = r->row.line};
+    measured_point point = {.angle = {value[MEASURED_THETA_I], value[MEASURED_PHI_I],
+                                      value[MEASURED_THETA_R], phi_r / unit},
+                            .f = f,
+                            .line = r->row.line};
     set_direction(theta_i, phi_i, point.i);
     set_direction(theta_r, phi_r, point.r);
     push(r, &point);
 }
 
-/* Takes one line; false where reading on makes no sense. */
-static bool read_line(reader *r, const line *l)
+/* A last row that may have been cut. */
+static void leave_out(reader *r, const line *l)
+{
+    errors_warn(r->errors, (place){r->path, l->number, 1},
+                "this last row has no line end, so that it may have been cut off, and is left out; "
+                "end it with a new line if it is whole");
+}
+
+/* Takes one line; is_ended: it has a line end. False where reading on makes no sense. */
+static bool read_line(reader *r, const line *l, bool is_ended)
 {
     const char *at = skip_blanks(l->start, l->end);
     if (at == l->end) return true;
@@ -340,11 +417,15 @@ static bool read_line(reader *r, const line *l)
                            "this row has more than %d cells", MOST_COLUMNS));
         return false;
     }
+    if (!r->knows_columns && !r->header.line && !holds_a_number(&r->row)) {
+        r->header = r->row;
+        return true;
+    }
+    if (!is_ended) {
+        leave_out(r, l);
+        return true;
+    }
     if (!r->knows_columns) {
-        if (!r->header.line && !holds_a_number(&r->row)) {
-            r->header = r->row;
-            return true;
-        }
         find_columns(r);
         if (r->status) return false;
     }
@@ -360,7 +441,7 @@ static void read_lines(reader *r, const char *bytes, size_t size)
     while (l.start < end && l.number < INT_MAX) {
         const char *newline = memchr(l.start, '\n', (size_t)(end - l.start));
         l.end = newline ? newline : end;
-        if (!read_line(r, &l)) return;
+        if (!read_line(r, &l, newline != NULL)) return;
         l.start = newline ? newline + 1 : end;
         l.number++;
     }
@@ -373,9 +454,24 @@ static bool is_in_plane(const measured_point *p)
     return fabs(p->i[0] * p->r[1] - p->i[1] * p->r[0]) <= IN_PLANE;
 }
 
-static void read_bytes(reader *r, const char *bytes, size_t size)
+/* Refuses a file of hardly any rows. */
+static void check_number(reader *r)
 {
     enum { FEWEST = 3 };
+    const place whole = {r->path, 0, 0};
+    const int n = r->out->n, dropped = r->out->n_dropped;
+    if (n >= FEWEST) return;
+    if (dropped > 0)
+        fail(r, errors_add(r->errors, GLINT_INPUT, whole,
+                           "found %d usable rows (and %d without light); expected at least %d", n,
+                           dropped, FEWEST));
+    else
+        fail(r, errors_add(r->errors, GLINT_INPUT, whole,
+                           "found %d rows of numbers; expected at least %d", n, FEWEST));
+}
+
+static void read_bytes(reader *r, const char *bytes, size_t size)
+{
     const char *nul = memchr(bytes, '\0', size);
     if (nul) {
         fail(r, errors_add(r->errors, GLINT_INPUT, (place){r->path, 0, 0},
@@ -385,10 +481,8 @@ static void read_bytes(reader *r, const char *bytes, size_t size)
     }
     read_lines(r, bytes, size);
     if (r->status) return;
-    if (r->out->n < FEWEST)
-        fail(r, errors_add(r->errors, GLINT_INPUT, (place){r->path, 0, 0},
-                           "found %d usable rows (and %d without light); expected at least %d",
-                           r->out->n, r->out->n_dropped, FEWEST));
+    check_unit(r);
+    check_number(r);
     r->out->in_plane = true;
     for (int k = 0; k < r->out->n; k++)
         if (!is_in_plane(&r->out->points[k])) r->out->in_plane = false;

@@ -33,6 +33,7 @@ typedef struct measured_format {
                            of phi, theta_r is positive on the mirror's side of the normal and
                            negative on the source's */
     bool radians;       /* angles in rad instead of deg */
+    bool unit_given;    /* the unit was said, and angles that look like another's are believed */
     double floor;       /* 1/sr, at least 0: what the instrument writes where it sees nothing; rows
                            with f at or below it are left out */
 } measured_format;
@@ -40,6 +41,8 @@ typedef struct measured_format {
 /* One measurement. */
 typedef struct measured_point {
     double i[3], r[3]; /* unit, facet frame (t, b, n), away from the facet */
+    double angle[4];   /* theta_i, phi_i, theta_r, phi_r as they stand in the file, in its unit; of
+                          an azimuth without a column, what stands in its place */
     double f;          /* 1/sr, > 0 */
     int line;          /* of the file */
 } measured_point;
@@ -63,14 +66,22 @@ const char *measured_name(int quantity);
  * mark are accepted.
  * asked_from: place of the value that names the file. *out is measured_free's on success and empty
  * on error.
+ * Rows may stand in any order.
  * Errors (GLINT_INPUT, all that were found, at the file's line and column): unreadable, a zero
  * byte, more than 256 columns, no such column, a column named twice, a row of another length, a
  * cell that is no finite number, theta outside 0 to 90 deg (-90 to 90 when signed), f negative,
- * fewer than 3 usable rows. GLINT_INTERNAL: memory is out.
- * A file that was cut in the middle of a row is refused for the cells that are missing. One cut in
- * the middle of its last number (0.012 for 0.0123) cannot be told from a whole one. */
+ * fewer than 3 usable rows; and, unless unit_given, angles in deg that look like rad: none from the
+ * normal above pi/2 and no azimuth above 2 pi. GLINT_INTERNAL: memory is out.
+ * A last row without a line end may have been cut: it is left out with a warning. */
 glint_status measured_read(const char *path, place asked_from, const measured_format *format,
                            measured *out, glint_errors *errors);
 void measured_free(measured *m);
+
+/* Looks at the rows of a file together, as an interpolation needs them. path: for messages. Errors
+ * (GLINT_INPUT): rows with the same four angles that disagree about f, each pair at the line of the
+ * second. (Rows that repeat others word by word are no error; nor are those that measure the same
+ * place in other words, as reciprocals or across the pole do.) GLINT_INTERNAL: memory is out.
+ * Warns of gaps: where rows of a scan stand much farther apart than the rows on both sides. */
+glint_status measured_check(const measured *rows, const char *path, glint_errors *errors);
 
 #endif

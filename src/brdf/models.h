@@ -21,5 +21,6 @@ extern const brdf_model brdf_abg;
 extern const brdf_model brdf_binomial;
 extern const brdf_model brdf_five_parameter;
 extern const brdf_model brdf_table;
+extern const brdf_model brdf_mirror;
 
 #endif

@@ -102,6 +102,7 @@ double brdf_material_width(const brdf_material *material)
     double width = HUGE_VAL;
     for (int k = 0; k < material->n_lobes; k++) {
         if (material->lobes[k].weight == 0.0) continue;
+        if (material->lobes[k].model->specular) return 0.0;
         brdf_sharpness s;
         brdf_lobe_sharpness(&material->lobes[k], &s);
         width = fmin(width, fmin(s.width[0], s.width[1]));

@@ -19,11 +19,11 @@ typedef struct brdf_sharpness {
 
 /* Describes one lobe. Found by looking: f (1/sr) is compared with itself while the bisector of the
  * two directions leaves the normal, at phase angles 0 and 60 deg; the sharper of the two counts for
- * the width, the wider one for the reach. */
+ * the width, the wider one for the reach. Light that is mirrored perfectly is not looked at. */
 void brdf_lobe_sharpness(const brdf_lobe *lobe, brdf_sharpness *out);
 
-/* The smallest width of the lobes of a material that have a weight, along and across the tangent.
- */
+/* The smallest width of the lobes of a material that have a weight, along and across the tangent; 0
+ * where one of them is a mirror. */
 double brdf_material_width(const brdf_material *material);
 
 #endif

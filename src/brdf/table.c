@@ -220,6 +220,7 @@ glint_status table_prepare(const measured *rows, brdf_lobe *lobe, glint_error *e
 
 void table_describe(const brdf_lobe *lobe, table_facts *facts)
 {
+    static const double WHOLE = 0.995; /* covered is found to about 1 % */
     const double *data = lobe->numbers;
     *facts = (table_facts){.n_rows = (int)data[TABLE_ROWS],
                            .n_dropped = (int)data[TABLE_DROPPED],
@@ -230,7 +231,8 @@ void table_describe(const brdf_lobe *lobe, table_facts *facts)
                            .scans = data[TABLE_SCATTERED] == 0.0,
                            .least = exp(data[TABLE_LEAST]),
                            .largest = exp(data[TABLE_LARGEST]),
-                           .covered = data[TABLE_COVERED]};
+                           .covered = data[TABLE_COVERED],
+                           .whole = data[TABLE_IN_PLANE] == 0.0 && data[TABLE_COVERED] >= WHOLE};
 }
 
 void table_report(const brdf_lobe *lobe, const char *indent, text *t)

@@ -31,6 +31,7 @@ typedef struct table_facts {
     double least, largest; /* range of f, 1/sr */
     double covered; /* part of the hemisphere that lies between the measurements: of all pairs of
                        directions, each counted with both its cosines, as a diffuse surface does */
+    bool whole;     /* all of it, as far as `covered` is known (1 %), and not in one plane alone */
 } table_facts;
 
 /* Makes *lobe (its weight and params are kept) a lobe of the model `table` from measured rows;

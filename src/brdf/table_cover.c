@@ -74,9 +74,10 @@ static bool add_hull(const point *points, int n, bool exchange, table_data *data
     }
     for (size_t k = 0; k < most; k++) {
         const point *p = &points[k / (size_t)images];
-        const bool swap = k & 4;
+        const size_t image = k % (size_t)images;
+        const bool swap = image & 4;
         const double x = swap ? p->y : p->x, y = swap ? p->x : p->y;
-        all[k] = (point){k & 1 ? -x : x, k & 2 ? -y : y};
+        all[k] = (point){image & 1 ? -x : x, image & 2 ? -y : y};
     }
     const int m = find_hull(all, (int)most, hull);
     const size_t at = table_data_add(data, NULL, 2 * (size_t)m);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CELL = 40 }; /* bytes */
+enum { CELL = 64 }; /* bytes */
 
 /* Columns of the list, as wide as their widest cell. */
 typedef struct widths {
@@ -15,14 +15,16 @@ typedef struct widths {
 static void range_text(const glint_brdf_param *p, char out[CELL])
 {
     const bool low = isfinite(p->min), high = isfinite(p->max);
+    const char *rows = p->dimensions ? " (rows)" : "";
     if (low && high)
-        snprintf(out, CELL, "%g to %g%s", p->min, p->max, p->dimensions ? " (rows)" : "");
+        snprintf(out, CELL, "%s%g to %s%g%s", p->min_open ? "above " : "", p->min,
+                 p->max_open ? "below " : "", p->max, rows);
     else if (low)
-        snprintf(out, CELL, "from %g", p->min);
+        snprintf(out, CELL, "%s %g%s", p->min_open ? "above" : "from", p->min, rows);
     else if (high)
-        snprintf(out, CELL, "to %g", p->max);
+        snprintf(out, CELL, "%s %g%s", p->max_open ? "below" : "to", p->max, rows);
     else
-        snprintf(out, CELL, "any");
+        snprintf(out, CELL, "any%s", rows);
 }
 
 static int wider(int width, const char *text)

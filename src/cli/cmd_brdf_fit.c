@@ -117,6 +117,7 @@ static glint_status read_options(const options *o, glint_brdf_layout *layout,
                          "no model is given; expected --model with sums of the models of `glint "
                          "brdf list`, as in --model ward,lambert+abg");
     glint_status status = read_angles(o, &layout->radians, error);
+    layout->unit_given = options_has(o, OPTION_ANGLES);
     if (!status) status = options_number(o, OPTION_FLOOR, 0.0, 1e300, &layout->floor, error);
     if (!status) status = options_number(o, OPTION_MAX_ZENITH, 1.0, 90.0, &max_zenith_deg, error);
     fit->max_zenith_rad = max_zenith_deg * RAD_PER_DEG;

@@ -145,6 +145,35 @@ static glint_status find_kind(const options *o, glint_material_view_kind *kind, 
     return GLINT_OK;
 }
 
+/* Whether the unit of the angles was said, which for this command can be deg alone. */
+static glint_status read_unit(const options *o, bool *given, glint_error *error)
+{
+    const char *unit = o->values[OPTION_ANGLES];
+    *given = unit != NULL;
+    if (!unit || strcmp(unit, "deg") == 0) return GLINT_OK;
+    return error_say(error, GLINT_ARGUMENT,
+                     "--angles has '%s'; 'brdf show' takes angles in deg: expected deg", unit);
+}
+
+/* Refuses angles of a list that look like rad: none above pi/2, and not all of them whole tenths,
+ * as small angles in deg mostly are. */
+static glint_status check_unit(const options *o, option_id id, const show *s, glint_error *error)
+{
+    static const double MOST = 1.571; /* pi/2, rounded up */
+    double most = 0;
+    bool all_tenths = true;
+    for (size_t k = 0; k < s->view.n_theta_i; k++) {
+        const double tenths = 10 * s->theta_i_deg[k];
+        if (s->theta_i_deg[k] > most) most = s->theta_i_deg[k];
+        all_tenths = all_tenths && fabs(tenths - round(tenths)) < 1e-9;
+    }
+    if (most > MOST || all_tenths) return GLINT_OK;
+    return error_say(error, GLINT_ARGUMENT,
+                     "--%s has '%s', which look like radians; expected degrees, or --angles deg "
+                     "where degrees are so small",
+                     option_get(id)->name, o->values[id]);
+}
+
 /* The angles where the options give none: those of the founding paper's curves, or every 5 deg. */
 static void default_angles(show *s)
 {
@@ -170,6 +199,8 @@ static glint_status read_view(show *s, const options *o, glint_error *error)
     status = options_numbers(o, angles, 0, 90, s->theta_i_deg, MOST_ANGLES, &v->n_theta_i, error);
     if (!status) status = options_number(o, OPTION_AZIMUTH, -360, 360, &v->phi_i_deg, error);
     if (!status) status = options_number(o, OPTION_STEP, 0.001, 45.001, &v->step_deg, error);
+    if (!status) status = read_unit(o, &v->unit_given, error);
+    if (!status && !v->unit_given) status = check_unit(o, angles, s, error);
     if (!status && v->n_theta_i == 0) default_angles(s);
     return status;
 }
@@ -186,6 +217,8 @@ static void report_peaks(const show *s)
         for (size_t m = 0; m < s->n; m++) {
             double theta_r, f;
             fprintf(stderr, "%s %s ", m ? ";" : "", s->labels[m]);
+            const double mirrored = glint_material_mirrored(s->materials[m], theta_i_deg / DEG);
+            if (mirrored > 0) fprintf(stderr, "mirrors %.4g; else ", mirrored);
             if (!glint_material_peak(s->materials[m], theta_i_deg / DEG, s->view.phi_i_deg / DEG,
                                      &theta_r, &f)) {
                 fprintf(stderr, "none");

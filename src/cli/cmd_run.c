@@ -2,6 +2,19 @@
 #include "cli/output.h"
 #include "cli/report.h"
 
+/* Says where measured materials were used outside of their measurements. */
+static void report_unmeasured(const glint_curve *curve, const glint_summary *summary)
+{
+    const char *material;
+    int64_t rows;
+    for (size_t k = 0; glint_curve_unmeasured(curve, k, &material, &rows); k++)
+        if (rows > 0)
+            fprintf(stderr,
+                    "unmeasured %s: in %lld of %lld rows parts of it are lit and seen at angles "
+                    "that were not measured; the nearest measured values are taken\n",
+                    material, (long long)rows, (long long)summary->bright_rows);
+}
+
 /* Writes the table and says what came of it. */
 static glint_status write_table(glint_curve *curve, const options *o)
 {
@@ -13,10 +26,10 @@ static glint_status write_table(glint_curve *curve, const options *o)
                                                   drawn ? progress_draw : NULL, &bar, &error);
     progress_end(&bar);
     if (status == GLINT_OUTPUT && !o->output && output_reader_left()) return status;
-    if (status)
-        report_error(&error);
-    else if (!o->quiet)
-        report_summary(&summary);
+    if (status) report_error(&error);
+    if (status || o->quiet) return status;
+    report_summary(&summary);
+    report_unmeasured(curve, &summary);
     return status;
 }
 

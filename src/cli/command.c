@@ -125,15 +125,19 @@ static const command commands[] = {
          "reflection in the plane of incidence (--incidence, the default), over the hemisphere\n"
          "(--hemisphere), at angles from a file (--geometry), or its sum over the hemisphere, the\n"
          "reflectance (--dhr). NAME is a material of FILE, which is a file of materials or a\n"
-         "model; without NAME all its materials are shown. Angles are in deg.\n"
+         "model; without NAME all its materials are shown.\n"
+         "\n"
+         "Angles are in deg. Those that look like radians are refused: in a file none from the\n"
+         "normal above 1.571 and no azimuth above 6.284, in a list none above 1.571 and not all\n"
+         "whole tenths. --angles deg says that so small ones are meant.\n"
          "\n"
          "With --plot it is drawn, too. The peaks of curves end up on standard error.",
      .example = "glint brdf show scenarios/materials/huang2013.toml --plot panel-and-mli.png",
      .example_doc = "a solar panel and MLI at six angles of incidence",
      .formats = csv_only,
      .options = GENERAL | BIT(OPTION_PLOT) | BIT(OPTION_INCIDENCE) | BIT(OPTION_HEMISPHERE) |
-                BIT(OPTION_GEOMETRY) | BIT(OPTION_DHR) | BIT(OPTION_AZIMUTH) | BIT(OPTION_STEP) |
-                BIT(OPTION_BAND) | BIT(OPTION_LOG),
+                BIT(OPTION_GEOMETRY) | BIT(OPTION_ANGLES) | BIT(OPTION_DHR) | BIT(OPTION_AZIMUTH) |
+                BIT(OPTION_STEP) | BIT(OPTION_BAND) | BIT(OPTION_LOG),
      .min_operands = 1,
      .max_operands = INT_MAX,
      .run = cmd_brdf_show},
@@ -147,6 +151,9 @@ static const command commands[] = {
          "of their rms deviation in dex (powers of ten), with parameters and standard errors,\n"
          "and the materials to be used in a model file. Standard errors and the criteria AIC and\n"
          "BIC take the errors of the measurements for independent.\n"
+         "\n"
+         "Angles that look like radians (none from the normal above 1.571 and no azimuth above\n"
+         "6.284) are refused unless --angles says their unit.\n"
          "\n"
          "In a sum such as lambert+2*ward-gmd only one term is diffuse: the other terms' own\n"
          "diffuse parts are 0. Lobes are the same along and across the tangent unless\n"

@@ -198,19 +198,53 @@ static void completion_case(FILE *out, const command *c)
     fprintf(out, "' ;;&\n"); /* the next is tried too: "brdf list", "brdf show" */
 }
 
-/* A pattern of the options whose value is (is not) the name of a file; --format and --completion
- * have words of their own. */
+/* Whether the value of an option is completed in a way of its own. */
+static bool has_own_words(int id)
+{
+    return id == OPTION_FORMAT || id == OPTION_COMPLETION || id == OPTION_MODEL ||
+           id == OPTION_COLUMNS;
+}
+
+/* A pattern of the options whose value is (is not) the name of a file, but for those that have
+ * words of their own. */
 static void completion_values(FILE *out, bool files)
 {
     const char *between = "";
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option_info *o = option_get((option_id)id);
-        if (!o->value || id == OPTION_FORMAT || id == OPTION_COMPLETION) continue;
+        if (!o->value || has_own_words(id)) continue;
         if ((strcmp(o->value, "FILE") == 0) != files) continue;
         fprintf(out, "%s--%s", between, o->name);
         if (o->letter) fprintf(out, " | -%c", o->letter);
         between = " | ";
     }
+}
+
+/* Completes the last item of a list, which stands behind one of `separators`. */
+static void completion_list(FILE *out, const char *separators)
+{
+    fprintf(out,
+            "            local item=${current##*[%s]}\n"
+            "            mapfile -t COMPREPLY < <(compgen -P \"${current%%\"$item\"}\" -W "
+            "\"$words\" -- "
+            "\"$item\")\n"
+            "            compopt -o nospace 2>/dev/null\n"
+            "            return ;;\n",
+            separators);
+}
+
+/* The values that are lists: models with commas, pluses and counts, columns with commas. */
+static void completion_lists(FILE *out)
+{
+    const char *name;
+    fprintf(out, "        --%s)\n            words='", option_get(OPTION_MODEL)->name);
+    for (size_t k = 0; (name = glint_brdf_name(k)); k++)
+        if (glint_brdf_can_be_fitted(k)) fprintf(out, " %s", name);
+    fprintf(out, "'\n");
+    completion_list(out, ",+*");
+    fprintf(out, "        --%s)\n            words='theta_i= phi_i= theta_r= phi_r= f='\n",
+            option_get(OPTION_COLUMNS)->name);
+    completion_list(out, ",");
 }
 
 void help_bash_completion(FILE *out)
@@ -219,7 +253,12 @@ void help_bash_completion(FILE *out)
             "# bash completion for glint %s\n"
             "_glint()\n{\n"
             "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
-            "    local words='' formats=''\n"
+            "    local words='' formats='' at=$COMP_CWORD\n"
+            "    # bash takes '=' for a word of its own: --name=value, a=1,b=2\n"
+            "    if [[ $previous == '=' ]]; then\n"
+            "        while ((at > 0)) && [[ ${COMP_WORDS[at]} != --* ]]; do ((at--)); done\n"
+            "        previous=${COMP_WORDS[at]}\n"
+            "    fi\n"
             "    case ${COMP_WORDS[1]} in\n",
             glint_version());
     const command *c;
@@ -233,8 +272,9 @@ void help_bash_completion(FILE *out)
     fprintf(out, "'\n    fi\n"
                  "    case $previous in\n"
                  "        --format) words=$formats ;;\n"
-                 "        --completion) words=bash ;;\n"
-                 "        ");
+                 "        --completion) words=bash ;;\n");
+    completion_lists(out);
+    fprintf(out, "        ");
     completion_values(out, false);
     fprintf(out, ") return ;;\n        ");
     completion_values(out, true);

@@ -38,8 +38,7 @@ static const option_info table[OPTION_COUNT] = {
     [OPTION_SIGNED_ZENITH] = {'\0', "signed-zenith", NULL,
                               "angles from the normal may be negative: the opposite azimuth"},
     [OPTION_ANGLES] = {'\0', "angles", "UNIT",
-                       "unit of the angles in the file: deg, the default, "
-                       "or rad"},
+                       "unit of the angles: deg, the default, or (of 'brdf fit') rad"},
     [OPTION_FLOOR] = {'\0', "floor", "VALUE",
                       "leave out rows with f at or below VALUE, 1/sr: the instrument saw nothing"},
     [OPTION_MAX_ZENITH] = {'\0', "max-zenith", "ANGLE",

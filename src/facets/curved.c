@@ -3,7 +3,6 @@
 
 #include "base/constants.h"
 #include "base/vec.h"
-#include "brdf/sharpness.h"
 #include "facets/curved_parts.h"
 
 #include <stdlib.h>
@@ -11,9 +10,6 @@
 /* Normals of matter this far from the facet's own (cosine) are not what it stands for: a facet of
  * which a file says so counts as flat. */
 #define LEAST_COSINE 0.2
-
-/* In place of the width of what has no lobe along one axis, rad: no facet is so large. */
-#define WIDEST 1e3
 
 /* What is at hand while a span is looked at. */
 typedef struct maker {
@@ -226,12 +222,11 @@ static bool is_large(const curved_span *span, int k, const double width[2])
 static glint_status look_at_lobe(const curved_span *span, const brdf_lobe *lobe, curved_lobe *out,
                                  glint_error *error)
 {
-    brdf_sharpness sharpness;
-    brdf_lobe_sharpness(lobe, &sharpness);
-    for (int j = 0; j < 2; j++) {
-        out->width[j] = fmin(sharpness.width[j], WIDEST);
-        out->reach = fmax(out->reach, sharpness.reach[j] / out->width[j]);
-    }
+    lobe_shape shape;
+    lobe_shape_find(lobe, &shape);
+    for (int j = 0; j < 2; j++)
+        out->width[j] = shape.specular ? CURVED_MIRROR_WIDTH : shape.width[j];
+    out->reach = shape.reach;
     for (int k = 0; k < span->n && !out->active; k++)
         out->active = is_large(span, k, out->width);
     if (!out->active || lobe->weight == 0.0) return GLINT_OK;

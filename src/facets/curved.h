@@ -61,10 +61,4 @@ glint_status curved_span_make(const facet_list *list, int first, int n, const br
                               const int *same, int n_bands, curved_span **out, glint_error *error);
 void curved_span_free(curved_span *span);
 
-/* As brdf_material_tile, over the facets of a span, in a band that is no other's same. A lane's
- * result depends on that lane alone. */
-void curved_span_tile(const curved_span *span, int band, const brdf_material *material,
-                      const brdf_facets *facets, const brdf_light *light, const double *visible,
-                      double sum[BRDF_TILE]);
-
 #endif

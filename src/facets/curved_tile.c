@@ -1,81 +1,11 @@
 /* curved_tile.c: the light of curved facets in one tile. */
 #include "base/vec.h"
+#include "facets/batch.h"
 #include "facets/curved.h"
 #include "facets/curved_parts.h"
+#include "facets/solar_disc.h"
 
 #include <stdint.h>
-
-/* Facets that are handed to the kernel together. Their number is fixed, so that a lane's sum is the
- * same whatever the other lanes are. */
-enum { CHUNK = 16 };
-
-/* Pairs of directions with the matter that they meet, on their way through the kernel. */
-typedef struct batch {
-    const brdf_material *material;
-    _Alignas(64) double i[3][BRDF_TILE], r[3][BRDF_TILE]; /* in the frame of the piece: t, b, n */
-    double x[BRDF_TILE], y[BRDF_TILE]; /* slopes of the matter's normal in that frame */
-    double area_m2[BRDF_TILE];
-    int lane[BRDF_TILE]; /* of the light that they come from */
-    int n;
-    double sum[BRDF_TILE]; /* by these lanes */
-} batch;
-
-/* The pairs in the frames of their own normals: n = (x, y, 1) made unit, and the tangent (1, 0, 0)
- * made orthogonal to it. */
-static void turn_into_frames(const batch *b, brdf_light *light)
-{
-    for (int k = 0; k < BRDF_TILE; k++) {
-        const double x = b->x[k], y = b->y[k];
-        const double c = 1.0 + y * y, q = c + x * x, n_scale = 1.0 / sqrt(q);
-        const double b_scale = 1.0 / sqrt(c), t_scale = n_scale * b_scale;
-        const double i0 = b->i[0][k], i1 = b->i[1][k], i2 = b->i[2][k];
-        const double r0 = b->r[0][k], r1 = b->r[1][k], r2 = b->r[2][k];
-        light->i[0][k] = (c * i0 - x * (y * i1 + i2)) * t_scale;
-        light->i[1][k] = (i1 - y * i2) * b_scale;
-        light->i[2][k] = (x * i0 + y * i1 + i2) * n_scale;
-        light->r[0][k] = (c * r0 - x * (y * r1 + r2)) * t_scale;
-        light->r[1][k] = (r1 - y * r2) * b_scale;
-        light->r[2][k] = (x * r0 + y * r1 + r2) * n_scale;
-    }
-}
-
-static void flush(batch *b)
-{
-    static const double zero = 0.0, one = 1.0;
-    static const brdf_facets unit = {.n = 1,
-                                     .normal = {&zero, &zero, &one},
-                                     .tangent = {&one, &zero, &zero},
-                                     .bitangent = {&zero, &one, &zero},
-                                     .area = &one};
-    if (b->n == 0) return;
-    for (int k = b->n; k < BRDF_TILE; k++) { /* spare lanes */
-        for (int j = 0; j < 3; j++)
-            b->i[j][k] = b->i[j][0], b->r[j][k] = b->r[j][0];
-        b->x[k] = b->y[k] = b->area_m2[k] = 0.0;
-    }
-    brdf_light light;
-    turn_into_frames(b, &light);
-    brdf_light_finish(&light);
-    double sum[BRDF_TILE] = {0};
-    brdf_material_tile(b->material, &unit, &light, b->area_m2, sum);
-    for (int k = 0; k < b->n; k++)
-        b->sum[b->lane[k]] += sum[k];
-    b->n = 0;
-}
-
-/* Adds matter of that area with a pair of directions in the frame of its piece. */
-static void push(batch *b, int lane, const double i[3], const double r[3], double x, double y,
-                 double area_m2)
-{
-    const int k = b->n++;
-    for (int j = 0; j < 3; j++)
-        b->i[j][k] = i[j], b->r[j][k] = r[j];
-    b->x[k] = x;
-    b->y[k] = y;
-    b->area_m2[k] = area_m2;
-    b->lane[k] = lane;
-    if (b->n == BRDF_TILE) flush(b);
-}
 
 /* One facet in the light of one lane. */
 typedef struct scene {
@@ -84,8 +14,10 @@ typedef struct scene {
     double i[3], r[3];          /* in the frame of the piece: t, b, n */
     double width[2], narrow[2]; /* of the lobe, rad, and 1 / that */
     double reach;               /* of the lobe, in widths */
+    double blur;                /* how far the disc moves the highlight, in widths */
     double highlight[2];        /* slopes of the bisector; of triangles only */
     double part;                /* of the facet that is lit and seen */
+    const disc_sample *disc;    /* NULL: the source is a point */
 } scene;
 
 static double square(double x, double y)
@@ -98,7 +30,7 @@ static bool is_fine(const scene *s, double extent2, double distance2)
 {
     if (extent2 <= CURVED_FINE * CURVED_FINE) return true;
     const double extent = sqrt(extent2), wing = CURVED_NEAR + extent / CURVED_FAR;
-    const double past = s->reach + extent, enough = wing < past ? wing : past;
+    const double past = s->reach + extent, enough = (wing < past ? wing : past) + s->blur;
     return distance2 >= enough * enough;
 }
 
@@ -126,7 +58,7 @@ static void push_slopes(const scene *s, const curved_piece *p, double from_x, do
 {
     const double x = s->highlight[0] + from_x * s->width[0];
     const double y = s->highlight[1] + from_y * s->width[1];
-    push(s->batch, s->lane, s->i, s->r, x, y, area_m2 * density_at(p, x, y));
+    batch_push(s->batch, s->lane, s->i, s->r, x, y, area_m2 * density_at(p, x, y));
 }
 
 /* Integrates over a triangle, with rules whose points all lie inside: three points, exact for
@@ -227,7 +159,10 @@ static void push_arc(const scene *s, const curved_piece *p, double lo, double hi
         double i[3], r[3];
         turn_back(p, u, s->i, i);
         turn_back(p, u, s->r, r);
-        push(s->batch, s->lane, i, r, 0.0, 0.0, s->part * p->area_m2 * part);
+        if (s->disc)
+            disc_push(s->batch, s->disc, i, r, s->part * p->area_m2 * part);
+        else
+            batch_push(s->batch, s->lane, i, r, 0.0, 0.0, s->part * p->area_m2 * part);
     }
 }
 
@@ -263,15 +198,9 @@ static void add_arc(const scene *s, const curved_piece *p)
 
 /* --- facets --- */
 
-/* A tile's light as seen from the facets: a cone about the bisectors. */
-typedef struct spread {
-    double middle[3];    /* unit; 0 where the bisectors look every way */
-    double cosine, sine; /* of the widest angle of a bisector from it */
-} spread;
-
-static spread spread_of(const brdf_light *light)
+static curved_spread spread_of(const brdf_light *light)
 {
-    spread s = {{0, 0, 0}, -1.0, 0.0};
+    curved_spread s = {{0, 0, 0}, -1.0, 0.0};
     for (int k = 0; k < BRDF_TILE; k++)
         for (int j = 0; j < 3; j++)
             s.middle[j] += light->h[j][k];
@@ -289,7 +218,7 @@ static spread spread_of(const brdf_light *light)
 }
 
 /* False when the cosine of no bisector to the normal is above the root of cosine2. */
-static bool can_be_near(const spread *s, const double normal[3], double cosine2)
+static bool can_be_near(const curved_spread *s, const double normal[3], double cosine2)
 {
     if (!(s->cosine > 0.0)) return true;
     const double c = dot3(s->middle, normal), limit = sqrt(cosine2);
@@ -308,25 +237,85 @@ static void lane_at(const double v[3][BRDF_TILE], int k, double out[3])
     out[0] = v[0][k], out[1] = v[1][k], out[2] = v[2][k];
 }
 
-/* The state of one tile. */
-typedef struct tile {
-    const curved_span *span;
-    const curved_lobe *lobe;
-    const brdf_facets *facets;
-    const brdf_light *light;
-    spread spread;
-    double widest, longest_reach; /* of the lobe: width, rad; reach in any lane, in widths */
-    batch batch;
-} tile;
-
 /* Past it nothing is left of the lobe, in widths. Lobes about the mirror direction, and those that
  * know the length of i + r, are wider in terms of the normal where the phase angle is large. */
-static double reach_of(const tile *t, int lane)
+static double reach_of(const curved_tile *t, int lane)
 {
     return t->lobe->reach * 2.0 / t->light->hlen[lane];
 }
 
-static void add_pieces(tile *t, int k, int lane, const double frame[9], double part)
+/* How far the bisector leans, at most, while the source moves from the middle of its disc to the
+ * rim: in the smaller width of the lobe. */
+static double disc_reach(const curved_tile *t, int lane)
+{
+    if (!t->disc) return 0.0;
+    const double narrowest = fmin(t->lobe->width[0], t->lobe->width[1]);
+    return 1.3 * t->disc->radius[lane] / (t->light->hlen[lane] * narrowest);
+}
+
+void curved_tile_start(curved_tile *t)
+{
+    t->spread = spread_of(t->light);
+    t->widest = fmax(t->lobe->width[0], t->lobe->width[1]);
+    for (int lane = 0; lane < BRDF_TILE; lane++) {
+        t->longest_reach = fmax(t->longest_reach, reach_of(t, lane));
+        t->longest_disc = fmax(t->longest_disc, disc_reach(t, lane));
+    }
+}
+
+/* A perfect mirror that is curved both ways shows an image of the disc, whose points are counted:
+ * those that the piece has the normal for. Near that normal dA of the matter send the light on over
+ * 4 dA / (dA / dw) sr. e1: the first axis of the disc, the same for all facets, in this frame. */
+static void add_image(const curved_tile *t, const scene *s, const double e1[3],
+                      const curved_piece *p)
+{
+    const disc_rule *points = &t->disc->rules[DISC_FOUR];
+    double e2[3];
+    cross3(s->i, e1, e2);
+    const double scale = tan(t->disc->radius[s->lane]);
+    const double(*c)[2] = p->corner;
+    const double whole =
+        (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
+    for (int k = 0; k < points->n; k++) {
+        double i[3], h[3];
+        for (int j = 0; j < 3; j++)
+            i[j] = s->i[j] + scale * (points->x[k] * e1[j] + points->y[k] * e2[j]);
+        unit3(i, i);
+        add3(i, s->r, h);
+        if (!(h[2] > 0.0)) continue;
+        const double at[2] = {h[0] / h[2], h[1] / h[2]};
+        bool inside = whole != 0.0;
+        for (int j = 0; j < 3 && inside; j++) {
+            const double *a = c[j], *b = c[(j + 1) % 3];
+            inside = ((b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0])) * whole >= 0;
+        }
+        if (!inside) continue;
+        const double q = 1.0 + at[0] * at[0] + at[1] * at[1];
+        const double spread = p->area_m2 / (0.5 * fabs(whole)) * density_at(p, at[0], at[1]) * q *
+                              sqrt(q); /* dA / dw, m^2/sr */
+        s->batch->sum[s->lane] += s->part * points->weight[k] * 0.25 * spread *
+                                  brdf_material_specular(s->batch->material, 0.5 * norm3(h));
+    }
+}
+
+/* Arcs are integrated for every point of the disc, so no piece of them need be much finer than what
+ * the disc blurs. */
+static void widen_by_disc(const curved_tile *t, int lane, scene *s)
+{
+    /* Pieces per radius of the disc. The image in a mirror ends sharply, somewhere in a piece. */
+    const double fineness = t->shape->specular ? 200.0 : 10.0;
+    const double size = t->disc->radius[lane] / t->light->hlen[lane]; /* rad, of the normal */
+    double most = 0.0;
+    for (int j = 0; j < 2; j++) {
+        const double wide = fmax(t->lobe->width[j], size / fineness);
+        most = fmax(most, size / wide);
+        s->width[j] = wide;
+        s->narrow[j] = 1.0 / wide;
+    }
+    s->blur = 1.5 * most;
+}
+
+static void add_pieces(curved_tile *t, int k, int lane, const double frame[9], double part)
 {
     scene s = {.batch = &t->batch,
                .lane = lane,
@@ -334,9 +323,13 @@ static void add_pieces(tile *t, int k, int lane, const double frame[9], double p
                .narrow = {1.0 / t->lobe->width[0], 1.0 / t->lobe->width[1]},
                .reach = reach_of(t, lane),
                .part = part};
-    double i[3], r[3], h[3];
+    const double radius = t->disc ? t->disc->radius[lane] : 0.0;
+    const disc_sample disc = {.shape = t->shape, .disc = t->disc, .lane = lane};
+    double i[3], r[3], h[3], e1[3], own_e1[3];
     lane_at(t->light->i, lane, i);
     lane_at(t->light->r, lane, r);
+    const int away = smallest3(i);
+    perp3((double[3]){away == 0, away == 1, away == 2}, i, e1);
     for (int p = t->span->first_piece[k]; p < t->span->first_piece[k + 1]; p++) {
         const curved_piece *piece = &t->span->pieces[p];
         const bool is_arc = piece->kind == SURFACE_CONE;
@@ -344,7 +337,17 @@ static void add_pieces(tile *t, int k, int lane, const double frame[9], double p
         mat_vec(own, i, s.i);
         mat_vec(own, r, s.r);
         if (is_arc) {
-            add_arc(&s, piece);
+            scene arc = s;
+            if (radius > 0.0) {
+                arc.disc = &disc;
+                widen_by_disc(t, lane, &arc);
+            }
+            add_arc(&arc, piece);
+            continue;
+        }
+        if (t->shape->specular) {
+            mat_vec(own, e1, own_e1);
+            if (radius > 0.0) add_image(t, &s, own_e1, piece);
             continue;
         }
         add3(s.i, s.r, h);
@@ -377,18 +380,18 @@ static bool bisector_cosines(const brdf_light *light, const double normal[3], do
 
 /* True when the highlight of a lane is so near to the facet that its normal alone will not do. hn:
  * i + r along the normal. */
-static bool is_near(const tile *t, int k, int lane, const double frame[9], double hn)
+static bool is_near(const curved_tile *t, int k, int lane, const double frame[9], double hn)
 {
     if (!(hn > 0.0)) return false;
     const curved_lobe *lobe = t->lobe;
     double h[3];
     lane_at(t->light->h, lane, h);
     const double x = dot3(frame, h) / lobe->width[0], y = dot3(frame + 3, h) / lobe->width[1];
-    const double near = near_of(lobe, k, reach_of(t, lane));
+    const double near = near_of(lobe, k, reach_of(t, lane)) + disc_reach(t, lane);
     return square(x, y) < near * near * hn * hn;
 }
 
-static bool is_lit(const tile *t, const double normal[3], int lane)
+static bool is_lit(const curved_tile *t, const double normal[3], int lane)
 {
     double i[3], r[3];
     lane_at(t->light->i, lane, i);
@@ -396,23 +399,15 @@ static bool is_lit(const tile *t, const double normal[3], int lane)
     return dot3(i, normal) > BRDF_EDGE && dot3(r, normal) > BRDF_EDGE;
 }
 
-static void fill_left(const double *seen, double left[BRDF_TILE])
-{
-    for (int lane = 0; lane < BRDF_TILE; lane++)
-        left[lane] = seen ? seen[lane] : 1.0;
-}
-
-/* Integrates facet k for the lanes whose highlight is near, and takes these lanes out of `left`,
- * which gets what is left of `seen` (NULL: of all 1). False when there are none, and `left` is as
- * it was. */
-static bool add_near_lanes(tile *t, int k, const double *seen, double left[BRDF_TILE])
+bool curved_add_near(curved_tile *t, int k, double left[BRDF_TILE])
 {
     if (t->lobe->extent[k] == 0.0) return false;
     double frame[9], hn[BRDF_TILE];
     vector_at(t->facets->tangent, k, frame);
     vector_at(t->facets->bitangent, k, frame + 3);
     vector_at(t->facets->normal, k, frame + 6);
-    const double slope = t->widest * near_of(t->lobe, k, t->longest_reach); /* at most */
+    const double near = near_of(t->lobe, k, t->longest_reach) + t->longest_disc;
+    const double slope = t->widest * near; /* at most */
     const double cosine2 = 1.0 / (1.0 + slope * slope);
     if (!can_be_near(&t->spread, frame + 6, cosine2) ||
         !bisector_cosines(t->light, frame + 6, cosine2, hn))
@@ -420,68 +415,10 @@ static bool add_near_lanes(tile *t, int k, const double *seen, double left[BRDF_
     bool any = false;
     for (int lane = 0; lane < BRDF_TILE; lane++) {
         if (!is_near(t, k, lane, frame, hn[lane]) || !is_lit(t, frame + 6, lane)) continue;
-        if (!any) fill_left(seen, left);
         any = true;
         const double part = left[lane];
         left[lane] = 0.0;
         if (part > 0.0) add_pieces(t, k, lane, frame, part);
     }
     return any;
-}
-
-static brdf_facets facets_from(const brdf_facets *facets, int first, int n)
-{
-    brdf_facets out = {.n = n, .area = facets->area + first};
-    for (int j = 0; j < 3; j++) {
-        out.normal[j] = facets->normal[j] + first;
-        out.tangent[j] = facets->tangent[j] + first;
-        out.bitangent[j] = facets->bitangent[j] + first;
-    }
-    return out;
-}
-
-/* One lobe against which facets are large. */
-static void add_lobe(const curved_span *span, const curved_lobe *lobe,
-                     const brdf_material *material, const brdf_facets *facets,
-                     const brdf_light *light, const double *visible, double sum[BRDF_TILE])
-{
-    tile t = {.span = span, .lobe = lobe, .facets = facets, .light = light};
-    t.spread = spread_of(light);
-    t.widest = fmax(lobe->width[0], lobe->width[1]);
-    for (int lane = 0; lane < BRDF_TILE; lane++)
-        t.longest_reach = fmax(t.longest_reach, reach_of(&t, lane));
-    t.batch.material = material;
-    for (int first = 0; first < span->n; first += CHUNK) {
-        _Alignas(64) double left[CHUNK][BRDF_TILE];
-        const int n = span->n - first < CHUNK ? span->n - first : CHUNK;
-        const double *seen = visible ? visible + (size_t)first * BRDF_TILE : NULL;
-        bool any = false;
-        for (int k = 0; k < n; k++) {
-            if (any) fill_left(seen ? seen + k * BRDF_TILE : NULL, left[k]);
-            if (!add_near_lanes(&t, first + k, seen ? seen + k * BRDF_TILE : NULL, left[k]))
-                continue;
-            for (int j = 0; j < k && !any; j++)
-                fill_left(seen ? seen + j * BRDF_TILE : NULL, left[j]);
-            any = true;
-        }
-        const brdf_facets some = facets_from(facets, first, n);
-        brdf_material_tile(material, &some, light, any ? left[0] : seen, sum);
-    }
-    flush(&t.batch);
-    for (int lane = 0; lane < BRDF_TILE; lane++)
-        sum[lane] += t.batch.sum[lane];
-}
-
-void curved_span_tile(const curved_span *span, int band, const brdf_material *material,
-                      const brdf_facets *facets, const brdf_light *light, const double *visible,
-                      double sum[BRDF_TILE])
-{
-    const curved_lobe *lobes = span->lobes + span->first_lobe[band];
-    for (int k = 0; k < material->n_lobes; k++) {
-        const brdf_material one = {.n_lobes = 1, .lobes = &material->lobes[k]};
-        if (lobes[k].active)
-            add_lobe(span, &lobes[k], &one, facets, light, visible, sum);
-        else
-            brdf_material_tile(&one, facets, light, visible, sum);
-    }
 }

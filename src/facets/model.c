@@ -2,6 +2,7 @@
 
 #include "base/vec.h"
 #include "facets/curved.h"
+#include "facets/lobe_tile.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -189,6 +190,29 @@ static glint_status find_curved(model *m, glint_error *error)
     return GLINT_OK;
 }
 
+/* Shapes of the lobes of every material in every band. */
+static glint_status find_shapes(model *m, glint_error *error)
+{
+    const size_t n = (size_t)m->n_materials * (size_t)m->n_bands;
+    int n_lobes = 0;
+    m->first_shape = calloc(n + 1, sizeof *m->first_shape);
+    if (!m->first_shape) return error_no_memory(error);
+    for (size_t k = 0; k < n; k++) {
+        m->first_shape[k] = n_lobes;
+        n_lobes += m->materials[k / (size_t)m->n_bands].bands[k % (size_t)m->n_bands].n_lobes;
+    }
+    m->shapes = calloc((size_t)n_lobes + 1, sizeof *m->shapes);
+    if (!m->shapes) return error_no_memory(error);
+    for (size_t k = 0; k < n; k++) {
+        const brdf_material *band =
+            &m->materials[k / (size_t)m->n_bands].bands[k % (size_t)m->n_bands];
+        if (m->same_band[k] < (int)(k % (size_t)m->n_bands)) continue;
+        for (int j = 0; j < band->n_lobes; j++)
+            lobe_shape_find(&band->lobes[j], &m->shapes[m->first_shape[k] + j]);
+    }
+    return GLINT_OK;
+}
+
 static void assert_indices(const facet_list *facets, int n_materials, int n_components)
 {
     for (int k = 0; k < facets->n; k++) {
@@ -217,6 +241,7 @@ glint_status model_compile(facet_list *facets, const model_material *materials, 
     if (!status) status = fill_arrays(out, error);
     if (!status) status = make_spans(out, error);
     if (!status) status = find_same_bands(out, error);
+    if (!status) status = find_shapes(out, error);
     if (!status) status = find_curved(out, error);
     if (status)
         model_free(out);
@@ -233,19 +258,23 @@ void model_free(model *m)
     free(m->spans);
     free(m->arrays);
     free(m->same_band);
+    free(m->first_shape);
+    free(m->shapes);
     facet_list_free(&m->polygons);
     *m = (model){0};
 }
 
 /* --- the sum --- */
 
-void model_sum(const model *m, const brdf_light *lights, const double *visible, double *x)
+void model_sum(const model *m, const brdf_light *lights, const source_disc *disc,
+               const double *visible, double *x)
 {
     const size_t band_size = (size_t)m->n_spans * BRDF_TILE;
     for (int s = 0; s < m->n_spans; s++) {
         const model_span *span = &m->spans[s];
         const brdf_material *bands = m->materials[span->material].bands;
-        const int *same = m->same_band + (size_t)span->material * (size_t)m->n_bands;
+        const size_t first_band = (size_t)span->material * (size_t)m->n_bands;
+        const int *same = m->same_band + first_band;
         const double *seen = visible ? visible + (size_t)span->first * BRDF_TILE : NULL;
         double *sum = x + (size_t)s * BRDF_TILE;
         for (int b = 0; b < m->n_bands; b++, sum += band_size) {
@@ -255,8 +284,10 @@ void model_sum(const model *m, const brdf_light *lights, const double *visible, 
             }
             memset(sum, 0, BRDF_TILE * sizeof *sum);
             const brdf_light *light = &lights[span->component];
-            if (span->curved)
-                curved_span_tile(span->curved, b, &bands[b], &span->facets, light, seen, sum);
+            if (span->curved || disc)
+                lobe_tile(span->curved, b, &bands[b],
+                          m->shapes + m->first_shape[first_band + (size_t)b], &span->facets, light,
+                          disc, seen, sum);
             else
                 brdf_material_tile(&bands[b], &span->facets, light, seen, sum);
         }

@@ -18,6 +18,41 @@ typedef struct model_component {
 } model_component;
 
 struct curved_span;
+struct lobe_shape;
+
+/* Linear limb darkening of the source: I(mu) is proportional to 1 - u (1 - mu), mu the cosine of
+ * the angle at which its surface is left. u at 550 nm: 0.6 (physics page, section 4). */
+#define LIMB_DARKENING 0.6
+
+/* Points in the disc, in units of its radius, and weights that add to 1: rules from cheap to fine.
+ */
+typedef enum disc_rule_kind {
+    DISC_CENTRE,
+    DISC_CROSS,
+    DISC_RING,
+    DISC_TWO,
+    DISC_THREE,
+    DISC_FOUR,
+    DISC_RULES
+} disc_rule_kind;
+
+enum { DISC_POINTS = 64 };
+
+typedef struct disc_rule {
+    int n;
+    double x[DISC_POINTS], y[DISC_POINTS], weight[DISC_POINTS];
+} disc_rule;
+
+/* A source that is a disc, in each lane of a tile. */
+typedef struct source_disc {
+    bool limb_darkened;
+    disc_rule rules[DISC_RULES];
+    double radius[BRDF_TILE], scale[BRDF_TILE]; /* angular, rad, and its tangent; 0: a point */
+} source_disc;
+
+/* Fills all but the radii, which source_disc_set does, lane by lane: 0 to 0.1 rad. */
+void source_disc_start(source_disc *disc, bool limb_darkened);
+void source_disc_set(source_disc *disc, int lane, double radius);
 
 /* Facets of one material in one component. */
 typedef struct model_span {
@@ -35,7 +70,10 @@ typedef struct model {
     model_span *spans;                 /* owned; by component, then material */
     facet_list polygons;               /* owned; in the same order as the arrays */
     double *arrays;                    /* owned; backs the spans */
-    int *same_band; /* owned; n_materials x n_bands: first band that is the same function */
+    struct lobe_shape
+        *shapes;      /* owned; of the lobes of all materials in all bands, in that order */
+    int *first_shape; /* owned; n_materials x n_bands: where those of a band begin */
+    int *same_band;   /* owned; n_materials x n_bands: first band that is the same function */
 } model;
 
 /* Takes over *facets (emptied on success). Facets are sorted by component, then material, keeping
@@ -50,11 +88,14 @@ void model_free(model *m);
 /* Sums g * area * visible over each span for one tile of BRDF_TILE direction pairs, m^2/sr. A facet
  * that stands for a piece of a curved surface counts with all the normals of that piece where the
  * material's lobe is narrow against them (curved.h).
- * lights: one per component, directions in that component's frame.
- * visible: n_facets x BRDF_TILE fractions in the order of the facets, or NULL for all 1.
- * x: n_bands x n_spans x BRDF_TILE, overwritten: lane k of span s in band b stands at
- * (b n_spans + s) BRDF_TILE + k. Bands that share a function are evaluated once. */
-void model_sum(const model *m, const brdf_light *lights, const double *visible, double *x);
+ * disc: the source; NULL: a point. The light of a disc is the mean over it, which narrow lobes
+ * feel, mirrors live from, and facets notice when it sets: to 1e-3 mag (solar_disc.h). Surfaces
+ * curved both ways feel it as mirrors only. lights: one per component, directions in that
+ * component's frame. visible: n_facets x BRDF_TILE fractions in the order of the facets, or NULL
+ * for all 1. x: n_bands x n_spans x BRDF_TILE, overwritten: lane k of span s in band b stands at (b
+ * n_spans + s) BRDF_TILE + k. Bands that share a function are evaluated once. */
+void model_sum(const model *m, const brdf_light *lights, const source_disc *disc,
+               const double *visible, double *x);
 
 /* Geometry in numbers, for reports. */
 typedef struct model_component_facts {

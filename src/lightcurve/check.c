@@ -34,16 +34,29 @@ static void report_time(const glint_scenario *s, text *t)
     char *line = fact_orbit(s, &s->orbit);
     text_printf(t, "orbit       %s\n", line ? line : "");
     free(line);
-    text_printf(t, "attitude    %s%s\n", s->attitude.law->name,
-                s->attitude.has_offset ? ", with an offset" : "");
+    text_add(t, "attitude    ");
+    attitude_plan_describe(&s->attitude, "            ", t);
 }
 
-static void report_hinge(const hinge *h, text *t)
+/* has_time: false for a model file alone, whose dates are counted from nowhere. */
+static void report_table(const hinge_table *table, bool has_time, text *t)
+{
+    const double from_s = table->t_s[0], to_s = table->t_s[table->n - 1];
+    text_printf(t, "by a table of %ld angles", table->n);
+    if (has_time)
+        text_printf(t, " from %.10g to %.10g s", from_s, to_s);
+    else
+        text_printf(t, " over %.10g s", to_s - from_s);
+}
+
+static void report_hinge(const hinge *h, bool has_time, text *t)
 {
     if (h->drive == HINGE_FIXED)
         text_printf(t, "fixed at %g deg", (h->angle + h->offset) / DEG);
     else if (h->drive == HINGE_RATE)
         text_printf(t, "turns at %g deg/s", h->rate_rad_s / DEG);
+    else if (h->drive == HINGE_TABLE)
+        report_table(&h->table, has_time, t);
     else if (h->target.kind < DIRECTION_STAR)
         text_printf(t, "tracks %s", direction_word((size_t)h->target.kind));
     else
@@ -54,8 +67,9 @@ static void report_hinge(const hinge *h, text *t)
         text_printf(t, " between %g and %g deg", h->limits[0] / DEG, h->limits[1] / DEG);
 }
 
-static glint_status report_components(const satellite *sat, text *t, glint_error *error)
+static glint_status report_components(const glint_scenario *s, text *t, glint_error *error)
 {
+    const satellite *sat = &s->satellite;
     text_printf(t, "satellite   %d facets, %d components, %d materials\n", sat->model.n_facets,
                 sat->n_components, sat->n_materials);
     for (int c = 0; c < sat->n_components; c++) {
@@ -73,7 +87,7 @@ static glint_status report_components(const satellite *sat, text *t, glint_error
             text_printf(t, "  on %s", sat->components[component->parent].name);
         if (component->has_hinge) {
             text_add(t, ", ");
-            report_hinge(&component->hinge, t);
+            report_hinge(&component->hinge, s->n_steps > 0, t);
         }
         text_char(t, '\n');
         if (facts.n_facets)
@@ -129,6 +143,17 @@ static void report_reflectance(const brdf_material *material, text *t)
     text_char(t, '\n');
 }
 
+/* What of it a mirror sends into one direction. */
+static void report_mirror(const brdf_material *material, text *t)
+{
+    const double part[3] = {brdf_material_specular(material, 1.0),
+                            brdf_material_specular(material, cos(30 * DEG)),
+                            brdf_material_specular(material, cos(60 * DEG))};
+    if (part[0] > 0)
+        text_printf(t, "              of that %.3f, %.3f, %.3f into the mirror direction alone\n",
+                    part[0], part[1], part[2]);
+}
+
 static void report_materials(const glint_scenario *s, text *t)
 {
     const satellite *sat = &s->satellite;
@@ -149,6 +174,7 @@ static void report_materials(const glint_scenario *s, text *t)
             text_char(t, '\n');
             report_tables(&sat->materials[m].bands[b], t);
             report_reflectance(&sat->materials[m].bands[b], t);
+            report_mirror(&sat->materials[m].bands[b], t);
         }
     }
 }
@@ -188,7 +214,7 @@ static glint_status describe(const glint_scenario *s, bool is_model, text *t, gl
                     (long long)s->geometry.n);
     else if (!is_model)
         report_time(s, t);
-    const glint_status status = report_components(&s->satellite, t, error);
+    const glint_status status = report_components(s, t, error);
     if (status) return status;
     report_materials(s, t);
     if (!is_model) report_run(s, t);
@@ -222,6 +248,7 @@ static glint_status describe_material(const char *path, const char *name, text *
     text_printf(t, "\n            %s\n", glint_material_model(material));
     report_tables(material_function(material), t);
     report_reflectance(material_function(material), t);
+    report_mirror(material_function(material), t);
     glint_material_free(material);
     return GLINT_OK;
 }

@@ -2,6 +2,7 @@
 
 #include "base/constants.h"
 #include "lightcurve/columns.h"
+#include "lightcurve/coverage.h"
 #include "lightcurve/facts.h"
 #include "lightcurve/tile.h"
 
@@ -29,6 +30,9 @@ struct glint_curve {
     int64_t next;             /* first row of the next block: observer after observer */
     glint_row *rows, *chosen; /* owned; block */
     double *flux_ratio, *magnitude, *share_material, *share_component; /* owned */
+    coverage watched;                                                  /* measured materials */
+    unsigned char *outside; /* owned; block x watched.n: of coverage_mark */
+    int64_t *n_outside;     /* owned; watched.n: rows handed out so far of which that holds */
     column_set columns;
     fact_list facts;
 };
@@ -56,8 +60,10 @@ static bool make_rows(glint_curve *c)
     c->magnitude = calloc(c->block * n_bands, sizeof(double));
     c->share_material = calloc(c->block * n_materials, sizeof(double));
     c->share_component = calloc(c->block * n_components, sizeof(double));
-    return c->rows && c->chosen && c->flux_ratio && c->magnitude && c->share_material &&
-           c->share_component;
+    c->outside = calloc(c->block * (size_t)c->watched.n + 1, sizeof *c->outside);
+    c->n_outside = calloc((size_t)c->watched.n + 1, sizeof *c->n_outside);
+    return c->outside && c->n_outside && c->rows && c->chosen && c->flux_ratio && c->magnitude &&
+           c->share_material && c->share_component;
 }
 
 static bool asks_for_height(const glint_scenario *s)
@@ -91,6 +97,8 @@ glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint
     glint_status status = column_set_make(scenario, &c->columns, &error);
     facts_of_run(scenario, &c->facts);
     if (!status) status = tile_plan_shadows(scenario, &c->plan, &error);
+    if (!status)
+        status = coverage_make(&scenario->satellite, scenario->n_bands, &c->watched, &error);
     if (!status && (c->facts.failed || !make_workers(c) || !make_rows(c)))
         status = error_no_memory(&error);
     if (status) {
@@ -115,6 +123,9 @@ void glint_curve_close(glint_curve *c)
     free(c->magnitude);
     free(c->share_material);
     free(c->share_component);
+    free(c->outside);
+    free(c->n_outside);
+    coverage_free(&c->watched);
     column_set_free(&c->columns);
     fact_list_free(&c->facts);
     free(c);
@@ -174,7 +185,9 @@ static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, 
     const photometry_rows rows = {
         c->rows + at, c->flux_ratio + at * s->n_bands, c->magnitude + at * s->n_bands,
         c->share_material + at * m->n_materials, c->share_component + at * m->n_components};
-    return tile_worker_sum(s, w, &rows, error);
+    const glint_status summed = tile_worker_sum(s, w, &rows, error);
+    if (!summed && c->watched.n > 0) coverage_mark(&c->watched, w, c->outside + at * c->watched.n);
+    return summed;
 }
 
 /* All tiles of the block, over the threads; tiles are the same for any number of them. The error of
@@ -218,6 +231,14 @@ static bool is_wanted(const glint_scenario *s, const glint_row *row)
     return s->rows == ROWS_VISIBLE || !row->has_site || row->flags & GLINT_SITE_DARK;
 }
 
+/* Hands out row k of the block, and counts what was not measured in it. */
+static void choose_row(glint_curve *c, int64_t k, size_t *n)
+{
+    c->chosen[(*n)++] = c->rows[k];
+    for (int j = 0; j < c->watched.n; j++)
+        c->n_outside[j] += c->outside[k * c->watched.n + j];
+}
+
 glint_status glint_curve_next(glint_curve *c, const glint_row **rows, size_t *n, glint_error *error)
 {
     *rows = c->chosen;
@@ -235,7 +256,7 @@ glint_status glint_curve_next(glint_curve *c, const glint_row **rows, size_t *n,
             return status;
         }
         for (int64_t k = 0; k < count; k++)
-            if (is_wanted(c->s, &c->rows[k])) c->chosen[(*n)++] = c->rows[k];
+            if (is_wanted(c->s, &c->rows[k])) choose_row(c, k, n);
         c->next += count;
     }
     return GLINT_OK;
@@ -249,6 +270,14 @@ int64_t glint_curve_done(const glint_curve *c)
 int glint_curve_threads(const glint_curve *c)
 {
     return c->n_threads;
+}
+
+bool glint_curve_unmeasured(const glint_curve *c, size_t k, const char **material, int64_t *rows)
+{
+    if (k >= (size_t)c->watched.n) return false;
+    *material = c->s->satellite.materials[c->watched.items[k].material].name;
+    *rows = c->n_outside[k];
+    return true;
 }
 
 bool glint_curve_fact(const glint_curve *c, size_t k, const char **key, const char **value)

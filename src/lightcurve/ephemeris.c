@@ -141,7 +141,7 @@ static bool observer_has(const scenario_observer *o, column_need need)
 
 static bool has(const glint_scenario *s, column_need need)
 {
-    if (need == NEED_TEME) return s->orbit.source == ORBIT_TLE;
+    if (need == NEED_TEME) return orbit_wanted_frames(s->orbit.propagator) & FRAMES_TEME;
     if (need == NEED_ATTITUDE) return s->has_attitude;
     for (int k = 0; k < s->n_observers; k++)
         if (observer_has(&s->observers[k], need)) return true;
@@ -269,7 +269,7 @@ static glint_status fill_attitude(const glint_ephemeris *e, ephemeris_worker *wo
         status =
             satellite_turn(e->s, m, body_gcrs, worker->component_gcrs, worker->hinge_rad, error);
     else
-        status = attitude_at(&e->s->attitude, m, body_gcrs, error);
+        status = attitude_plan_at(&e->s->attitude, m, body_gcrs, error);
     if (status) return status;
     mat_transpose(body_gcrs, gcrs_body);
     quat_from_mat(gcrs_body, row->quaternion_wxyz);

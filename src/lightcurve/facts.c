@@ -2,6 +2,8 @@
 
 #include "base/constants.h"
 #include "base/text.h"
+#include "brdf/table.h"
+#include "orbit/attitude_table.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -86,19 +88,52 @@ static uint64_t hash_satellite(uint64_t hash, const satellite *sat, int n_bands)
                       (size_t)polygons->n_vertices * sizeof *polygons->vertices);
 }
 
-/* Element sets come from files of their own. */
+/* Element sets and positions, which come from files of their own. */
 static uint64_t hash_orbit(uint64_t hash, const scenario_orbit *o)
 {
-    if (o->source != ORBIT_TLE) return hash;
-    const tle *t = &o->tle;
-    const double elements[] = {t->epoch_jd[0],         t->epoch_jd[1],  t->bstar,
-                               t->inclination,         t->raan,         t->eccentricity,
-                               t->argument_of_perigee, t->mean_anomaly, t->mean_motion};
-    return hash_bytes(hash, elements, sizeof elements);
+    for (size_t k = 0; k < o->sets.n; k++) {
+        const tle *e = &o->sets.sets[k];
+        const double elements[] = {e->epoch_jd[0],         e->epoch_jd[1],  e->bstar,
+                                   e->inclination,         e->raan,         e->eccentricity,
+                                   e->argument_of_perigee, e->mean_anomaly, e->mean_motion};
+        hash = hash_bytes(hash, elements, sizeof elements);
+    }
+    const orbit_table *table = orbit_table_of(o->propagator, NULL);
+    for (size_t k = 0; table && k < table->n; k++) {
+        const table_segment *part = &table->segments[k];
+        const int how[] = {(int)part->frame, (int)part->method, part->degree};
+        const double use_s[] = {part->from_s, part->to_s};
+        hash = hash_bytes(hash, how, sizeof how);
+        hash = hash_bytes(hash, use_s, sizeof use_s);
+        hash = hash_bytes(hash, part->nodes, part->n * sizeof *part->nodes);
+    }
+    return hash;
 }
 
-/* Of all that decides the result: the files, what was set, element sets, masks, Earth orientation,
- * directions. */
+/* Attitudes and angles that came from files of their own. */
+static uint64_t hash_motion(uint64_t hash, const glint_scenario *s)
+{
+    for (int k = 0; k < s->attitude.n; k++) {
+        const attitude_table *t = s->attitude.legs[k].law.table;
+        if (!t) continue;
+        hash = hash_bytes(hash, t->t_s, (size_t)t->n * sizeof *t->t_s);
+        hash = hash_bytes(hash, t->q, (size_t)t->n * sizeof *t->q);
+        for (int i = 0; i < t->n_spans; i++) {
+            const double span[] = {t->spans[i].frame, t->spans[i].from_s, t->spans[i].to_s};
+            hash = hash_bytes(hash, span, sizeof span);
+        }
+    }
+    for (int c = 0; c < s->satellite.n_components; c++) {
+        const hinge_table *t = &s->satellite.components[c].hinge.table;
+        if (t->n == 0) continue;
+        hash = hash_bytes(hash, t->t_s, (size_t)t->n * sizeof *t->t_s);
+        hash = hash_bytes(hash, t->angle, (size_t)t->n * sizeof *t->angle);
+    }
+    return hash;
+}
+
+/* Of all that decides the result: the files, what was set, element sets, positions, masks, Earth
+ * orientation, directions, tables of attitudes and angles. */
 static uint64_t scenario_hash(const glint_scenario *s)
 {
     uint64_t hash = 0xcbf29ce484222325ull;
@@ -108,6 +143,7 @@ static uint64_t scenario_hash(const glint_scenario *s)
         hash = hash_text(hash, s->overrides[i]);
     hash = hash_satellite(hash, &s->satellite, s->n_bands);
     if (!s->has_geometry) hash = hash_orbit(hash, &s->orbit);
+    hash = hash_motion(hash, s);
     for (int i = 0; i < s->n_observers; i++) {
         const scenario_observer *o = &s->observers[i];
         if (o->kind == OBSERVER_SATELLITE) hash = hash_orbit(hash, &o->orbit);
@@ -128,37 +164,6 @@ static uint64_t scenario_hash(const glint_scenario *s)
         hash = hash_bytes(hash, s->geometry.t_s, n * sizeof *s->geometry.t_s);
     }
     return hash;
-}
-
-char *fact_orbit(const glint_scenario *s, const scenario_orbit *o)
-{
-    text out = {0};
-    const kepler_elements *k = &o->kepler;
-    const tle *t = &o->tle;
-    switch (o->source) {
-    case ORBIT_TLE: {
-        double tt_jd[2];
-        utc_jd_to_tt(t->epoch_jd, tt_jd, NULL);
-        const double days = jd_difference_s(s->clock.tt_jd, tt_jd) / DAY_S;
-        text_printf(&out,
-                    "SGP4 (AIAA 2006-6753, WGS72, mode i), element set of %s%s%d whose epoch lies "
-                    "%.3f days %s the start",
-                    t->name, t->name[0] ? ", number " : "number ", t->number, fabs(days),
-                    days >= 0 ? "before" : "after");
-        break;
-    }
-    case ORBIT_KEPLER:
-    case ORBIT_CIRCULAR:
-        text_printf(&out,
-                    "Kepler%s, a = %.6g km, e = %.6g, i = %.6g deg; equator of date neglected",
-                    o->j2 ? " with the secular drift of J2" : ", two bodies",
-                    k->semi_major_axis_m * 1e-3, k->eccentricity, k->inclination / DEG);
-        break;
-    case ORBIT_GEOSTATIONARY:
-        text_printf(&out, "geostationary, longitude %.6g deg", o->geostationary_longitude / DEG);
-        break;
-    }
-    return out.data;
 }
 
 static void describe_site(const scenario_observer *o, text *out)
@@ -266,6 +271,32 @@ static void add_bands(const glint_scenario *s, fact_list *out)
     if (!s->has_extinction) add(out, "extinction", "none");
 }
 
+/* One fact for each law, and what is taken for granted between given attitudes. */
+static void add_attitude(const glint_scenario *s, fact_list *out)
+{
+    text lines = {0};
+    bool slews = false, tables = false;
+    attitude_plan_describe(&s->attitude, "", &lines);
+    if (lines.failed) out->failed = true;
+    for (char *line = lines.data, *end; line && (end = strchr(line, '\n')); line = end + 1) {
+        *end = '\0';
+        add(out, "attitude", "%s", line);
+    }
+    text_free(&lines);
+    for (int k = 0; k < s->attitude.n; k++) {
+        slews = slews || s->attitude.legs[k].slew_s > 0;
+        tables = tables || s->attitude.legs[k].law.table;
+    }
+    if (slews)
+        add(out, "attitude_slews",
+            "at a steady share of the turn between the two laws, by the "
+            "shorter way when the slew begins; no wheel ramps up or down");
+    if (tables)
+        add(out, "attitude_tables",
+            "between rows by the shortest way at a steady rate; nothing is "
+            "read outside their spans");
+}
+
 static void add_time(const glint_scenario *s, fact_list *out)
 {
     add(out, "time_scale",
@@ -275,6 +306,10 @@ static void add_time(const glint_scenario *s, fact_list *out)
     char *line = fact_orbit(s, &s->orbit);
     add(out, "orbit", "%s", line ? line : "");
     free(line);
+    char *sets = fact_element_sets(s, &s->orbit);
+    if (sets) add(out, "element_sets", "%s", sets);
+    free(sets);
+    add_attitude(s, out);
     add(out, "light_time", s->light_time ? "yes" : "no");
     add(out, "aberration", s->aberration ? "yes, of the Sun" : "no");
     add(out, "eclipse",
@@ -292,6 +327,29 @@ static void add_origin(const glint_scenario *s, fact_list *out)
         add(out, "set", "%s", s->overrides[k]);
 }
 
+/* What of the hemisphere measured materials cover. */
+static void add_measured(const glint_scenario *s, fact_list *out)
+{
+    for (int m = 0; m < s->satellite.n_materials; m++)
+        for (int b = 0; b < s->n_bands; b++) {
+            if (s->satellite.model.same_band[m * s->n_bands + b] != b) continue;
+            const brdf_material *band = &s->satellite.materials[m].bands[b];
+            for (int l = 0; l < band->n_lobes; l++) {
+                if (!(band->lobes[l].model->flags & BRDF_MEASURED)) continue;
+                table_facts facts;
+                table_describe(&band->lobes[l], &facts);
+                add(out, "measured",
+                    "material %s in %s: %d rows%s; %.0f %% of the hemisphere lie between them, and "
+                    "elsewhere the nearest values hold",
+                    s->satellite.materials[m].name, s->bands[b]->name, facts.n_rows,
+                    facts.in_plane ? " of the plane of incidence, carried out of it as if f did "
+                                     "not depend on phi_d"
+                                   : "",
+                    100.0 * facts.covered);
+            }
+        }
+}
+
 void facts_of_orbit(const glint_scenario *s, fact_list *out)
 {
     add_origin(s, out);
@@ -306,12 +364,19 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
         add(out, "geometry", "directions given in the body frame, the Sun at 1 au");
     else
         add_time(s, out);
+    add_measured(s, out);
     add(out, "self_shadows",
         s->self_shadows == SHADOWS_NONE
             ? "none: shadows that parts cast on each other are neglected"
             : "exact: facets shine with the area that is both lit by the Sun and seen by the "
               "observer");
-    add(out, "solar_disc", "point: facets see the Sun's light from the centre of its disc");
+    static const char *const DISCS[] = {
+        [SOLAR_UNIFORM] = "uniform: light is averaged over the Sun's disc, whose own shadows have "
+                          "sharp edges (those of its centre)",
+        [SOLAR_LIMB_DARKENED] = "limb-darkened (linear, u = 0.6): light is averaged over the Sun's "
+                                "disc, whose own shadows have sharp edges (those of its centre)",
+        [SOLAR_POINT] = "point: facets see the Sun's light from the centre of its disc"};
+    add(out, "solar_disc", "%s", DISCS[s->solar_disc]);
     add(out, "earthshine", "none");
     add(out, "not_modelled",
         "interreflection between parts, polarisation, transmission, thermal emission, moonlight%s",

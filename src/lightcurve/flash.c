@@ -12,7 +12,8 @@
  *
  * Any other surface is looked at in steps over which no part turns by more than a few degrees, and
  * the angle cannot fall from where it is to the limit, by the rates at which the parts turn and the
- * directions move at that moment (twice these, since they may grow within the step).
+ * directions move at that moment (twice these, since they may grow within the step), or until these
+ * may jump: at the ends of slews, at the rows of tables.
  *
  * The work is bounded by the number of flashes and of looks; what is cut off by that is said. */
 #include "base/constants.h"
@@ -170,6 +171,10 @@ static glint_status look_at(flash_search *f, double t_s, flash_look *out, glint_
     out->t_s = t_s;
     out->step_s = f->steady_s > 0 ? f->steady_s
                                   : fmin(fmin(nearest, MOST_TURN) / fmax(rate, 1e-12), LONGEST_S);
+    if (f->steady_s > 0) return GLINT_OK;
+    /* Rates hold until something begins or ends; then they are taken anew. */
+    const double change_s = satellite_next_change(f->w->s, seen.moment.t_s) - seen.moment.t_s;
+    out->step_s = fmin(out->step_s, change_s + RATE_OVER_S);
     return GLINT_OK;
 }
 

@@ -36,12 +36,13 @@ static glint_status turn_components(const satellite *sat, const moment *m,
             continue;
         }
         const hinge *h = &component->hinge;
-        double target[3], turn[9];
-        if (h->drive == HINGE_TRACK) {
-            const glint_status status = target_in_parent(&h->target, m, parent, target, error);
-            if (status) return status;
-        }
-        const double angle = hinge_angle(h, m->t_s, h->drive == HINGE_TRACK ? target : NULL);
+        double target[3], turn[9], angle;
+        glint_status status = GLINT_OK;
+        if (h->drive == HINGE_TRACK)
+            status = target_in_parent(&h->target, m, parent, target, error);
+        if (!status)
+            status = hinge_angle(h, m->t_s, h->drive == HINGE_TRACK ? target : NULL, &angle, error);
+        if (status) return status;
         hinge_matrix(h, angle, turn);
         if (hinge_rad) hinge_rad[c] = angle;
         mat_mul(turn, parent, component_gcrs[c]);
@@ -49,10 +50,18 @@ static glint_status turn_components(const satellite *sat, const moment *m,
     return GLINT_OK;
 }
 
+double satellite_next_change(const glint_scenario *s, double t_s)
+{
+    double next_s = attitude_plan_next_change(&s->attitude, t_s);
+    for (int c = 0; c < s->satellite.n_components; c++)
+        next_s = fmin(next_s, hinge_next_change(&s->satellite.components[c].hinge, t_s));
+    return next_s;
+}
+
 glint_status satellite_turn(const glint_scenario *s, const moment *m, double body_gcrs[9],
                             double (*component_gcrs)[9], double *hinge_rad, glint_error *error)
 {
-    const glint_status status = attitude_at(&s->attitude, m, body_gcrs, error);
+    const glint_status status = attitude_plan_at(&s->attitude, m, body_gcrs, error);
     if (status) return status;
     return turn_components(&s->satellite, m, body_gcrs, component_gcrs, hinge_rad, error);
 }
@@ -186,6 +195,7 @@ static glint_status fill_row(const glint_scenario *s, unsigned wanted, double gu
     out->range_m[k] = seen->range_m;
     out->sunlit[k] = sighting_sunlit(s, v, seen, &out->moon_covers[k]);
     const double au = AU_M / seen->sun_distance_m;
+    out->sun_radius[k] = asin(SUN_RADIUS_M / seen->sun_distance_m);
     out->sun_weight[k] = out->sunlit[k] * au * au;
     out->seen[k] = v->observer->kind != OBSERVER_SATELLITE ||
                    !eclipse_earth_between(seen->observer_gcrs_m, m->r_m, m->itrs_gcrs + 6);
@@ -217,6 +227,7 @@ static glint_status fill_given_row(const glint_scenario *s, int64_t row, int k,
     out->range_m[k] = s->geometry.range_m[row];
     out->phase_angle[k] = angle3(m.sun, m.observer);
     out->sunlit[k] = out->sun_weight[k] = 1;
+    out->sun_radius[k] = asin(SUN_RADIUS_M / AU_M);
     out->seen[k] = true;
     out->moon_covers[k] = false;
     out->azimuth[k] = out->elevation[k] = out->sun_elevation[k] = 0;
@@ -323,8 +334,10 @@ glint_status satellite_plan_shadows(const satellite *sat, visibility **out, glin
             const size_t c = (size_t)sat->order[k];
             const scenario_component *part = &sat->components[c];
             const bool turned = part->has_hinge && part->hinge.drive == HINGE_FIXED;
-            double turn[9];
-            hinge_matrix(&part->hinge, turned ? hinge_angle(&part->hinge, 0, NULL) : 0, turn);
+            double turn[9], angle = 0;
+            if (turned)
+                (void)hinge_angle(&part->hinge, 0, NULL, &angle, NULL); /* fixed ones hold */
+            hinge_matrix(&part->hinge, angle, turn);
             mat_mul(turn, part->parent < 0 ? body : component_body[part->parent],
                     component_body[c]);
         }

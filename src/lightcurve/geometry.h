@@ -17,6 +17,7 @@ typedef struct tile_geometry {
     double range_m[TILE];         /* observer to satellite along the light path */
     double phase_angle[TILE];     /* at the satellite, between Sun and observer */
     double sunlit[TILE];          /* visible fraction of the solar disc */
+    double sun_radius[TILE];      /* angular, of the solar disc */
     double sun_weight[TILE];      /* sunlit x (1 au / distance of the Sun)^2 */
     const scenario_observer *who; /* borrowed; NULL where directions are given */
     double azimuth[TILE], elevation[TILE], sun_elevation[TILE]; /* of a site; else 0 */
@@ -54,6 +55,10 @@ glint_status geometry_fill(const glint_scenario *s, const frame_grid *grid, unsi
 glint_status geometry_fill_at(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
                               const double *t_s, int n, geometry_worker *worker, tile_geometry *out,
                               brdf_light *lights, glint_error *error);
+
+/* The first time after t_s, both of emission, at which the rates of the body or of a hinge may
+ * jump; INFINITY where there is none. */
+double satellite_next_change(const glint_scenario *s, double t_s);
 
 /* Orientation of every component at one moment, and the angles of their hinges (rad; 0 without
  * one). component_gcrs, hinge_rad (NULL allowed): n_components. Errors (GLINT_INPUT): attitude or a

@@ -12,7 +12,7 @@
 /* ---------------------------------------------------------------- the turn */
 
 /* Fills in how the mirror turns: at most how fast, and about what if it is one steady turn. */
-static void find_turn(const satellite *sat, const attitude *att, mirror *m)
+static void find_turn(const satellite *sat, const attitude_plan *plan, mirror *m)
 {
     /* Slower turns are as slow as everything else, and need no search of their own. */
     static const double LONGEST_PERIOD_S = 600;
@@ -31,14 +31,15 @@ static void find_turn(const satellite *sat, const attitude *att, mirror *m)
             m->frame = c;
             copy3(h->axis, m->axis);
         } else if (h->drive == HINGE_FIXED || h->drive == HINGE_RATE) {
-            double turn[9];
-            hinge_matrix(h, hinge_angle(h, 0, NULL), turn);
+            double turn[9], angle = 0;
+            (void)hinge_angle(h, 0, NULL, &angle, NULL); /* only tables can fail */
+            hinge_matrix(h, angle, turn);
             if (turns == 0) mat_tvec(turn, normal, normal);
         } else if (turns == 0) {
             tracks = true;
         }
     }
-    const attitude_turning body = attitude_turning_of(att);
+    const attitude_turning body = attitude_plan_turning(plan);
     m->fastest_rad_s += body.fastest_rad_s;
     if (body.fastest_rad_s > 0 && turns++ == 0) {
         m->frame = -1;
@@ -87,7 +88,7 @@ static bool is_known(const mirror *m, int n)
     return false;
 }
 
-glint_status mirrors_of(const satellite *sat, const attitude *att, mirror_list *out,
+glint_status mirrors_of(const satellite *sat, const attitude_plan *plan, mirror_list *out,
                         glint_error *error)
 {
     const model *m = &sat->model;
@@ -114,7 +115,7 @@ glint_status mirrors_of(const satellite *sat, const attitude *att, mirror_list *
         if (!out->items[k].twin) out->items[out->n++] = out->items[k];
     qsort(out->items, (size_t)out->n, sizeof *out->items, facet_order);
     for (int k = 0; k < out->n; k++)
-        find_turn(sat, att, &out->items[k]);
+        find_turn(sat, plan, &out->items[k]);
     return GLINT_OK;
 }
 

@@ -77,7 +77,7 @@ typedef struct mirror_list {
 } mirror_list;
 
 /* Gathers the mirrors of a satellite. Errors: GLINT_INTERNAL (memory). */
-glint_status mirrors_of(const satellite *sat, const attitude *att, mirror_list *out,
+glint_status mirrors_of(const satellite *sat, const attitude_plan *plan, mirror_list *out,
                         glint_error *error);
 
 /* Angle, rad, between the direction to the observer and that into which a surface mirrors the Sun;

@@ -2,6 +2,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "lightcurve/facts.h"
 #include "lightcurve/pass_parts.h"
 #include "orbit/eclipse.h"
 
@@ -83,7 +84,9 @@ static glint_status edge_at(void *context, double t_s, double *y, glint_error *e
 {
     const edge_search *e = context;
     sighting seen;
-    const glint_status status = watch_at(e->w, t_s, &seen, error);
+    /* looks beyond a span go no farther than the run, behind which a table of positions may end */
+    const double inside_s = fmin(fmax(t_s, 0), e->w->s->span_s);
+    const glint_status status = watch_at(e->w, inside_s, &seen, error);
     if (status) return status;
     if (e->kind == EDGE_DARKNESS) {
         const glint_scenario *s = e->w->s;
@@ -534,8 +537,8 @@ const char *glint_passes_band(const glint_passes *passes)
 const char *glint_passes_satellite(const glint_passes *passes)
 {
     const glint_scenario *s = passes->s;
-    if (s->orbit.source == ORBIT_TLE && s->orbit.tle.name[0]) return s->orbit.tle.name;
-    return s->title;
+    const char *name = scenario_object(s);
+    return name[0] ? name : s->title;
 }
 
 const char *glint_event_name(glint_event_kind kind)

@@ -105,7 +105,7 @@ static glint_status look_from_direction(const glint_scenario *s, double t_s, vie
     copy3(o->direction, m->observer);
     if (o->in_body) {
         double body_gcrs[9];
-        status = attitude_at(&s->attitude, m, body_gcrs, error);
+        status = attitude_plan_at(&s->attitude, m, body_gcrs, error);
         if (status) return status;
         mat_tvec(body_gcrs, o->direction, m->observer);
     }

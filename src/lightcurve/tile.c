@@ -65,6 +65,16 @@ static glint_status find_visible(const glint_scenario *s, tile_worker *w, glint_
     return GLINT_OK;
 }
 
+/* The Sun's disc in every lane; a point in those that nobody asks for. */
+static void fill_disc(const glint_scenario *s, const tile_geometry *tile, source_disc *disc)
+{
+    source_disc_start(disc, s->solar_disc == SOLAR_LIMB_DARKENED);
+    for (int k = 0; k < TILE; k++) {
+        const bool bright = k < tile->n && tile->seen[k] && tile->sun_weight[k] > 0;
+        source_disc_set(disc, k, bright ? tile->sun_radius[k] : 0);
+    }
+}
+
 glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const photometry_rows *rows,
                              glint_error *error)
 {
@@ -72,7 +82,12 @@ glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const phot
         const glint_status status = find_visible(s, w, error);
         if (status) return status;
     }
-    if (w->tile.any_bright) model_sum(&s->satellite.model, w->lights, w->visible, w->x);
+    if (w->tile.any_bright) {
+        source_disc disc;
+        const bool is_disc = s->solar_disc != SOLAR_POINT;
+        if (is_disc) fill_disc(s, &w->tile, &disc);
+        model_sum(&s->satellite.model, w->lights, is_disc ? &disc : NULL, w->visible, w->x);
+    }
     photometry_fill(s, &w->tile, w->tile.any_bright ? w->x : NULL, rows);
     return GLINT_OK;
 }

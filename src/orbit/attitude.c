@@ -3,10 +3,12 @@
 #include "base/text.h"
 #include "base/vec.h"
 #include "orbit/attitude_law.h"
+#include "orbit/attitude_table.h"
 
 static const attitude_law *const laws[] = {
-    &attitude_nadir,    &attitude_rsw,  &attitude_point,      &attitude_sun_pointing,
-    &attitude_inertial, &attitude_spin, &attitude_torque_free};
+    &attitude_nadir,        &attitude_rsw,          &attitude_point,
+    &attitude_sun_pointing, &attitude_yaw_steering, &attitude_inertial,
+    &attitude_spin,         &attitude_torque_free,  &attitude_table_law};
 enum { N_LAWS = sizeof laws / sizeof *laws };
 
 const attitude_law *attitude_law_at(size_t k)
@@ -93,7 +95,15 @@ glint_status attitude_prepare(const attitude_spec *spec, attitude *out, glint_er
     const glint_status offset = prepare_offset(spec, out, errors);
     const glint_status keys = check_keys(spec, errors);
     const glint_status law = keys ? keys : spec->law->prepare(spec, out, errors);
-    return law ? law : offset;
+    const glint_status status = law ? law : offset;
+    if (status) attitude_free(out);
+    return status;
+}
+
+void attitude_free(attitude *a)
+{
+    attitude_table_free(a->table);
+    a->table = NULL;
 }
 
 glint_status attitude_at(const attitude *a, const moment *m, double body_gcrs[9],

@@ -4,6 +4,7 @@
 #ifndef GLINT_ORBIT_ATTITUDE_H
 #define GLINT_ORBIT_ATTITUDE_H
 
+#include "orbit/clock.h"
 #include "orbit/direction.h"
 #include "orbit/torque_free.h"
 
@@ -13,14 +14,18 @@ typedef enum attitude_key_kind {
     ATTITUDE_AXIS,       /* body axis: 3 numbers, not all zero; made unit by the reader */
     ATTITUDE_DIRECTION,  /* of the vocabulary */
     ATTITUDE_QUATERNION, /* w, x, y, z; norm 1 within 1e-6, made unit by the reader */
-    ATTITUDE_EPOCH       /* a UTC time; value[0] = TT s from the start of the run */
+    ATTITUDE_EPOCH,      /* a UTC time; value[0] = TT s from the start of the run */
+    ATTITUDE_WORD,       /* one of the key's words; value[0] = its index */
+    ATTITUDE_STRING,     /* text */
+    ATTITUDE_PATH        /* a file's path: `path` of the spec */
 } attitude_key_kind;
 
 typedef struct attitude_key {
     const char *name, *unit, *doc;
     attitude_key_kind kind;
     bool required;
-    double def; /* default of ATTITUDE_NUMBER and ATTITUDE_EPOCH (0: the start) */
+    double def; /* default of ATTITUDE_NUMBER, ATTITUDE_EPOCH (0: the start), ATTITUDE_WORD */
+    const char *const *words; /* of ATTITUDE_WORD; NULL ends them */
 } attitude_key;
 
 enum { ATTITUDE_MAX_KEYS = 8 };
@@ -32,11 +37,14 @@ typedef struct attitude_spec {
     bool given[ATTITUDE_MAX_KEYS];
     double value[ATTITUDE_MAX_KEYS][4];
     direction to[ATTITUDE_MAX_KEYS];
+    const char *text[ATTITUDE_MAX_KEYS]; /* borrowed; NULL where not given */
+    char *path;                          /* as seen from the working directory; the maker's */
+    const run_clock *clock;              /* borrowed; what files' times are counted from */
     bool has_offset;
     double offset_axis[3], offset_rad; /* unit, body; a turn after the law: mispointing */
 } attitude_spec;
 
-/* Ready to evaluate; immutable. */
+/* Ready to evaluate; immutable. attitude_free ends it. */
 typedef struct attitude {
     const struct attitude_law *law;
     double axis[3], second_axis[3]; /* unit, body */
@@ -47,7 +55,9 @@ typedef struct attitude {
     torque_free tumble;      /* torque-free */
     double phase_rad;        /* turned at the epoch */
     double epoch_s;          /* TT s from the start */
-    double offset[9];        /* v_body = offset v_law; identity where none */
+    bool geodetic;           /* nadir: straight down to the ellipsoid, not to the centre */
+    struct attitude_table *table; /* table: owned */
+    double offset[9];             /* v_body = offset v_law; identity where none */
     bool has_offset;
 } attitude;
 
@@ -88,6 +98,8 @@ void attitude_spec_start(const attitude_law *law, place where, attitude_spec *sp
 /* Prepares a law with its offset. Errors (all found, GLINT_INPUT, at the places of the keys): a
  * required key is not given; a number is not finite; those of the law. */
 glint_status attitude_prepare(const attitude_spec *spec, attitude *out, glint_errors *errors);
+/* Frees what a prepared attitude owns. Zeroed and failed ones are allowed. */
+void attitude_free(attitude *a);
 /* Evaluates it: v_body = R v_gcrs; R is orthogonal and right-handed to rounding. Errors
  * (GLINT_INPUT): a direction is not defined, or two are parallel, at this moment; saying when. */
 glint_status attitude_at(const attitude *a, const moment *m, double body_gcrs[9],

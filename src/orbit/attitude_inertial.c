@@ -5,7 +5,7 @@
 enum { QUATERNION, N_KEYS };
 static const attitude_key keys[N_KEYS] = {
     {"quaternion_wxyz", "", "body to GCRS, scalar first: v_gcrs = q v_body q*", ATTITUDE_QUATERNION,
-     true, 0},
+     true, 0, NULL},
 };
 
 static glint_status prepare(const attitude_spec *spec, attitude *out, glint_errors *errors)

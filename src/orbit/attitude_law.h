@@ -7,6 +7,8 @@
 
 extern const attitude_law attitude_nadir, attitude_rsw;          /* attitude_lvlh.c */
 extern const attitude_law attitude_point, attitude_sun_pointing; /* attitude_point.c */
+extern const attitude_law attitude_yaw_steering;                 /* attitude_point.c */
+extern const attitude_law attitude_table_law;                    /* attitude_table.c */
 extern const attitude_law attitude_inertial;                     /* attitude_inertial.c */
 extern const attitude_law attitude_spin;                         /* attitude_spin.c */
 extern const attitude_law attitude_torque_free;                  /* attitude_torque_free.c */

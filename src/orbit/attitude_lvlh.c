@@ -22,11 +22,35 @@ static glint_status orbit_triad(const moment *m, double outward_forward_normal[9
                      DIRECTION_PARALLEL, m->t_s);
 }
 
+enum { NADIR_NADIR, N_NADIR_KEYS };
+static const char *const nadirs[] = {"geocentric", "geodetic", NULL};
+static const attitude_key nadir_keys[N_NADIR_KEYS] = {
+    {"nadir", "", "where z points: to the Earth's centre, or straight down to the ellipsoid",
+     ATTITUDE_WORD, false, 0, nadirs},
+};
+
 static glint_status prepare_nadir(const attitude_spec *spec, attitude *out, glint_errors *errors)
 {
-    (void)spec, (void)errors;
-    out->to.kind = DIRECTION_NADIR;
+    (void)errors;
+    out->geodetic = spec->value[NADIR_NADIR][0] == 1;
+    out->to.kind = out->geodetic ? DIRECTION_GEODETIC_NADIR : DIRECTION_NADIR;
     out->second_to.kind = DIRECTION_VELOCITY;
+    return GLINT_OK;
+}
+
+/* z straight down, at most 0.2 deg from the Earth's centre, and y as near to -(orbit normal) as
+ * that allows. */
+static glint_status geodetic_at(const attitude *a, const moment *m, const double normal[3],
+                                double body_gcrs[9], glint_error *error)
+{
+    double down[3], side[3];
+    const glint_status status = direction_at(&a->to, m, down, error);
+    if (status) return status;
+    scale3(normal, -1.0, side);
+    perp3(side, down, side);
+    cross3(side, down, body_gcrs);
+    copy3(side, body_gcrs + 3);
+    copy3(down, body_gcrs + 6);
     return GLINT_OK;
 }
 
@@ -34,10 +58,10 @@ static glint_status prepare_nadir(const attitude_spec *spec, attitude *out, glin
 static glint_status nadir_at(const attitude *a, const moment *m, double body_gcrs[9],
                              glint_error *error)
 {
-    (void)a;
     double triad[9];
     const glint_status status = orbit_triad(m, triad, error);
     if (status) return status;
+    if (a->geodetic) return geodetic_at(a, m, triad + 6, body_gcrs, error);
     copy3(triad + 3, body_gcrs);
     scale3(triad + 6, -1.0, body_gcrs + 3);
     scale3(triad, -1.0, body_gcrs + 6);
@@ -62,7 +86,9 @@ static glint_status rsw_at(const attitude *a, const moment *m, double body_gcrs[
 
 const attitude_law attitude_nadir = {
     .name = "nadir",
-    .doc = "z to the Earth's centre, y against the orbit normal, x forwards (CCSDS LVLH)",
+    .doc = "z down, y against the orbit normal, x forwards (CCSDS LVLH)",
+    .keys = nadir_keys,
+    .n_keys = N_NADIR_KEYS,
     .flags = ATTITUDE_NEEDS_ORBIT,
     .prepare = prepare_nadir,
     .at = nadir_at,

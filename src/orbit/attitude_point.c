@@ -73,11 +73,11 @@ static glint_status point_at(const attitude *a, const moment *m, double body_gcr
 
 enum { POINT_AXIS, POINT_TO, POINT_SECOND_AXIS, POINT_SECOND_TO, N_POINT_KEYS };
 static const attitude_key point_keys[N_POINT_KEYS] = {
-    {"axis", "", "body axis that points exactly", ATTITUDE_AXIS, true, 0},
-    {"to", "", "where it points", ATTITUDE_DIRECTION, true, 0},
+    {"axis", "", "body axis that points exactly", ATTITUDE_AXIS, true, 0, NULL},
+    {"to", "", "where it points", ATTITUDE_DIRECTION, true, 0, NULL},
     {"second_axis", "", "body axis that points as nearly as the first allows", ATTITUDE_AXIS, true,
-     0},
-    {"second_to", "", "where the second axis points", ATTITUDE_DIRECTION, true, 0},
+     0, NULL},
+    {"second_to", "", "where the second axis points", ATTITUDE_DIRECTION, true, 0, NULL},
 };
 
 static glint_status prepare_point(const attitude_spec *spec, attitude *out, glint_errors *errors)
@@ -97,10 +97,10 @@ const attitude_law attitude_point = {
 
 enum { SUN_AXIS, SUN_SECOND_AXIS, SUN_SECOND_TO, N_SUN_KEYS };
 static const attitude_key sun_pointing_keys[N_SUN_KEYS] = {
-    {"axis", "", "body axis that points exactly at the Sun", ATTITUDE_AXIS, true, 0},
+    {"axis", "", "body axis that points exactly at the Sun", ATTITUDE_AXIS, true, 0, NULL},
     {"second_axis", "", "body axis that points as nearly as the first allows", ATTITUDE_AXIS, true,
-     0},
-    {"second_to", "", "where the second axis points", ATTITUDE_DIRECTION, true, 0},
+     0, NULL},
+    {"second_to", "", "where the second axis points", ATTITUDE_DIRECTION, true, 0, NULL},
 };
 
 static glint_status prepare_sun_pointing(const attitude_spec *spec, attitude *out,
@@ -117,4 +117,51 @@ const attitude_law attitude_sun_pointing = {
     .n_keys = N_SUN_KEYS,
     .prepare = prepare_sun_pointing,
     .at = point_at,
+};
+
+/* Nominal yaw steering of navigation satellites, in the axes of the IGS (Montenbruck et al. 2015,
+ * Adv. Space Res. 56, 1015): z to the Earth's centre; y, the axis of the solar arrays, along
+ * (Sun) x (zenith), normal to the Sun; x = y x z then lies on the Sun's side. In the frame of the
+ * law 'nadir' that is a yaw about z by psi = atan2(-tan beta, sin mu), beta the Sun's elevation
+ * above the orbit's plane, mu the satellite's angle from midnight. Where the Sun is within
+ * DIRECTION_PARALLEL of nadir or zenith (beta = 0 at noon and midnight) that is atan2(0, 0), which
+ * IEEE arithmetic has as 0: the attitude of the law 'nadir'. */
+static glint_status prepare_yaw_steering(const attitude_spec *spec, attitude *out,
+                                         glint_errors *errors)
+{
+    (void)spec, (void)errors;
+    out->axis[2] = 1.0;
+    out->second_axis[0] = 1.0;
+    attitude_triad(out->axis, out->second_axis, out->matrix);
+    out->to.kind = DIRECTION_NADIR;
+    out->second_to.kind = DIRECTION_SUN;
+    return GLINT_OK;
+}
+
+static glint_status yaw_steering_at(const attitude *a, const moment *m, double body_gcrs[9],
+                                    glint_error *error)
+{
+    static const direction velocity = {.kind = DIRECTION_VELOCITY};
+    double nadir[3], sun[3], triad[9];
+    glint_status status = direction_at(&a->to, m, nadir, error);
+    if (!status) status = direction_at(&a->second_to, m, sun, error);
+    if (!status && !attitude_triad(nadir, sun, triad)) {
+        status = direction_at(&velocity, m, sun, error);
+        if (!status && !attitude_triad(nadir, sun, triad))
+            status = error_set(error, GLINT_INPUT, PLACE_NONE,
+                               "the Sun and the velocity are both parallel to nadir within %g at "
+                               "%.10g s from the start, so yaw steering is not defined",
+                               DIRECTION_PARALLEL, m->t_s);
+    }
+    if (status) return status;
+    attitude_align(a->matrix, triad, body_gcrs);
+    return GLINT_OK;
+}
+
+const attitude_law attitude_yaw_steering = {
+    .name = "yaw-steering",
+    .doc = "z to the Earth's centre, x on the Sun's side, y normal to the Sun (GNSS, IGS axes)",
+    .flags = ATTITUDE_NEEDS_ORBIT,
+    .prepare = prepare_yaw_steering,
+    .at = yaw_steering_at,
 };

@@ -11,13 +11,14 @@
 
 enum { BODY_AXIS, POLE, PERIOD, RATE, PHASE, EPOCH, N_KEYS };
 static const attitude_key keys[N_KEYS] = {
-    {"body_axis", "", "body axis about which it turns, right-handed", ATTITUDE_AXIS, true, 0},
-    {"pole", "", "where body_axis points", ATTITUDE_DIRECTION, true, 0},
-    {"period_s", "s", "time of one turn, above 0; this or rate_deg_s", ATTITUDE_NUMBER, false, 0},
-    {"rate_deg_s", "deg/s", "rate of turning; this or period_s", ATTITUDE_NUMBER, false, 0},
-    {"phase_deg", "deg", "angle turned at the epoch", ATTITUDE_NUMBER, false, 0},
+    {"body_axis", "", "body axis about which it turns, right-handed", ATTITUDE_AXIS, true, 0, NULL},
+    {"pole", "", "where body_axis points", ATTITUDE_DIRECTION, true, 0, NULL},
+    {"period_s", "s", "time of one turn, above 0; this or rate_deg_s", ATTITUDE_NUMBER, false, 0,
+     NULL},
+    {"rate_deg_s", "deg/s", "rate of turning; this or period_s", ATTITUDE_NUMBER, false, 0, NULL},
+    {"phase_deg", "deg", "angle turned at the epoch", ATTITUDE_NUMBER, false, 0, NULL},
     {"epoch", "", "UTC time at which phase_deg holds; the start of the run if not given",
-     ATTITUDE_EPOCH, false, 0},
+     ATTITUDE_EPOCH, false, 0, NULL},
 };
 
 /* Exactly one of the two keys says how fast the body turns. */

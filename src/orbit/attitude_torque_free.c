@@ -6,11 +6,13 @@
 enum { INERTIA, RATES, QUATERNION, EPOCH, N_KEYS };
 static const attitude_key keys[N_KEYS] = {
     {"inertia_kg_m2", "kg m^2", "principal moments of inertia about body x, y, z", ATTITUDE_VECTOR,
-     true, 0},
-    {"rates_deg_s", "deg/s", "rates about body x, y, z at the epoch", ATTITUDE_VECTOR, true, 0},
-    {"quaternion_wxyz", "", "attitude at the epoch, body to GCRS", ATTITUDE_QUATERNION, true, 0},
+     true, 0, NULL},
+    {"rates_deg_s", "deg/s", "rates about body x, y, z at the epoch", ATTITUDE_VECTOR, true, 0,
+     NULL},
+    {"quaternion_wxyz", "", "attitude at the epoch, body to GCRS", ATTITUDE_QUATERNION, true, 0,
+     NULL},
     {"epoch", "", "UTC time at which rates and quaternion hold; the start of the run if not given",
-     ATTITUDE_EPOCH, false, 0},
+     ATTITUDE_EPOCH, false, 0, NULL},
 };
 
 /* No rigid body has a principal moment that exceeds the sum of the other two. */

@@ -6,7 +6,9 @@
 #include <erfa.h>
 #include <erfam.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 enum { DAY_SECONDS = 86400, MICRO = 1000000, FIRST_YEAR = 1972, LAST_YEAR = 2100 };
 
@@ -61,6 +63,9 @@ static bool has_leap_second(int year, int month, int day)
 
 /* ----------------------------------------------------------------- reading */
 
+/* In place of a month: the day counts from 1 January. */
+enum { DAY_OF_YEAR = -1 };
+
 /* Reads exactly `count` digits. */
 static bool take_digits(const char **at, int count, int *value)
 {
@@ -97,10 +102,16 @@ static bool take_second(const char **at, double *second)
     return true;
 }
 
+/* Year and month and day, or year and day of the year; the latter stands in out->day with the
+ * month DAY_OF_YEAR until day_of_year turns it into the former. */
 static bool take_date(const char **at, utc_time *out)
 {
-    return take_digits(at, 4, &out->year) && take(at, '-') && take_digits(at, 2, &out->month) &&
-           take(at, '-') && take_digits(at, 2, &out->day);
+    if (!take_digits(at, 4, &out->year) || !take(at, '-')) return false;
+    if (strspn(*at, "0123456789") == 3) {
+        out->month = DAY_OF_YEAR;
+        return take_digits(at, 3, &out->day);
+    }
+    return take_digits(at, 2, &out->month) && take(at, '-') && take_digits(at, 2, &out->day);
 }
 
 static bool take_time(const char **at, utc_time *out)
@@ -134,6 +145,23 @@ static bool take_all(const char *at, utc_time *out, int *offset_min)
 }
 
 /* -------------------------------------------------------------------- checks */
+
+/* A date that was written as year and day of the year, as year, month and day. */
+static glint_status day_of_year(utc_time *utc, place where, glint_error *error)
+{
+    if (utc->year < FIRST_YEAR - 1 || utc->year > LAST_YEAR + 1) { /* what it is: utc_check says */
+        utc->month = utc->day = 1;
+        return GLINT_OK;
+    }
+    const int64_t january_1 = days_from_date(utc->year, 1, 1);
+    const int length = (int)(days_from_date(utc->year + 1, 1, 1) - january_1), day = utc->day;
+    if (day < 1 || day > length)
+        return error_set(error, GLINT_INPUT, where,
+                         "day %03d of the year %04d does not exist; that year has %d days", day,
+                         utc->year, length);
+    date_from_days(january_1 + day - 1, &utc->year, &utc->month, &utc->day);
+    return GLINT_OK;
+}
 
 /* The calendar and the clock face, without years' limits and without leap seconds. */
 static glint_status check_fields(const utc_time *utc, place where, glint_error *error)
@@ -185,20 +213,49 @@ static void shift_minutes(utc_time *utc, int offset_min)
     utc->minute = (minute_of_day - 1440 * day_shift) % 60;
 }
 
+/* Reads the fields; what only UTC has, leap seconds and the years since 1972, is not checked. */
+static glint_status parse_fields(const char *string, place where, utc_time *out, int *offset_min,
+                                 glint_error *error)
+{
+    if (!take_all(string, out, offset_min))
+        return error_set(error, GLINT_INPUT, where,
+                         "'%.40s' is not a time; expected a form like 2025-07-24T19:10:00Z",
+                         string);
+    if (out->month == DAY_OF_YEAR) {
+        const glint_status status = day_of_year(out, where, error);
+        if (status) return status;
+    }
+    return check_fields(out, where, error);
+}
+
 glint_status utc_parse(const char *string, place where, utc_time *out, glint_error *error)
 {
     utc_time utc = {0};
     int offset_min;
-    if (!take_all(string, &utc, &offset_min))
-        return error_set(error, GLINT_INPUT, where,
-                         "'%.40s' is not a time; expected a form like 2025-07-24T19:10:00Z",
-                         string);
-    glint_status status = check_fields(&utc, where, error);
+    glint_status status = parse_fields(string, where, &utc, &offset_min, error);
     if (status) return status;
     shift_minutes(&utc, offset_min);
     status = utc_check(&utc, where, error);
     if (!status) *out = utc;
     return status;
+}
+
+glint_status utc_parse_worded(const char *string, place where, utc_time *out, glint_error *error)
+{
+    static const char MONTHS[] = "janfebmaraprmayjunjulaugsepoctnovdec";
+    int day, year, used = 0, k = 0;
+    char month[4], time[32], plain[64];
+    const bool good =
+        sscanf(string, "%2d %3[A-Za-z] %4d %31s%n", &day, month, &year, time, &used) == 4 &&
+        string[used] == '\0' && strlen(month) == 3 && day >= 0 && year >= 0;
+    while (good && k < 12 && strncasecmp(MONTHS + 3 * k, month, 3) != 0)
+        k++;
+    if (!good || k == 12)
+        return error_set(error, GLINT_INPUT, where,
+                         "'%.40s' is not a time; expected a form like 24 Jul 2025 19:10:00.000",
+                         string);
+    snprintf(plain, sizeof plain, "%04d-%02d-%02dT%s", year, k + 1, day, time);
+    return utc_parse(plain, where, out, error);
 }
 
 /* --------------------------------------------------------------- time scales */
@@ -236,6 +293,88 @@ void utc_jd_to_tt(const double utc_jd[2], double tt_jd[2], bool *dubious)
 double jd_difference_s(const double a[2], const double b[2])
 {
     return ((a[0] - b[0]) + (a[1] - b[1])) * DAY_S;
+}
+
+/* ------------------------------------------------------------- times of files */
+
+static const char *const SCALE_NAMES[] = {
+    [SCALE_UTC] = "UTC", [SCALE_TAI] = "TAI", [SCALE_TT] = "TT",
+    [SCALE_TDB] = "TDB", [SCALE_GPS] = "GPS",
+};
+
+const char *time_scale_name(time_scale scale)
+{
+    return SCALE_NAMES[scale];
+}
+
+glint_status time_scale_find(const char *name, place where, time_scale *out, glint_error *error)
+{
+    for (int k = 0; k <= SCALE_GPS; k++)
+        if (strcasecmp(name, SCALE_NAMES[k]) == 0) {
+            *out = (time_scale)k;
+            return GLINT_OK;
+        }
+    if (strcasecmp(name, "TDT") == 0) {
+        *out = SCALE_TT;
+        return GLINT_OK;
+    }
+    const bool earth = strcasecmp(name, "UT1") == 0 || strcasecmp(name, "GMST") == 0;
+    return error_set(error, GLINT_INPUT, where,
+                     "the time system '%.20s' is not taken%s; expected UTC, TAI, TT, TDB or GPS; "
+                     "have the file written in one of these",
+                     name,
+                     earth ? ": it counts turns of the Earth, which the file does not give" : "");
+}
+
+/* Fields of a uniform scale as its own two-part JD. */
+static void uniform_jd(const utc_time *t, double jd[2])
+{
+    eraCal2jd(t->year, t->month, t->day, &jd[0], &jd[1]);
+    jd[0] += jd[1];
+    jd[1] = (3600.0 * t->hour + 60.0 * t->minute + t->second) / DAY_S;
+}
+
+glint_status time_parse(const char *string, time_scale scale, place where, double tt_jd[2],
+                        glint_error *error)
+{
+    static const double GPS_MINUS_TAI_S = -19.0; /* s, IS-GPS-200: the scales met in 1980 */
+    utc_time t = {0};
+    if (scale == SCALE_UTC) {
+        const glint_status status = utc_parse(string, where, &t, error);
+        if (!status) utc_to_tt(&t, tt_jd, NULL, NULL);
+        return status;
+    }
+    int offset_min;
+    const glint_status status = parse_fields(string, where, &t, &offset_min, error);
+    if (status) return status;
+    if (offset_min != 0 || t.second >= 60.0 || t.year < FIRST_YEAR || t.year > LAST_YEAR)
+        return error_set(error, GLINT_INPUT, where,
+                         "'%.40s' is no time of %s; expected the years %d to %d, no offset of a "
+                         "zone and no second 60",
+                         string, SCALE_NAMES[scale], FIRST_YEAR, LAST_YEAR);
+    uniform_jd(&t, tt_jd);
+    if (scale == SCALE_TAI) tt_jd[1] += TT_MINUS_TAI_S / DAY_S;
+    if (scale == SCALE_GPS) tt_jd[1] += (TT_MINUS_TAI_S - GPS_MINUS_TAI_S) / DAY_S;
+    if (scale == SCALE_TDB) /* at the Earth's centre: neither longitude nor UT matter there */
+        tt_jd[1] -= eraDtdb(tt_jd[0], tt_jd[1], 0.0, 0.0, 0.0, 0.0) / DAY_S;
+    return GLINT_OK;
+}
+
+void tt_write_utc(const double tt_jd[2], char *out)
+{
+    double tai_jd[2], utc_jd[2];
+    int year, month, day, time[4];
+    eraTttai(tt_jd[0], tt_jd[1], &tai_jd[0], &tai_jd[1]);
+    eraTaiutc(tai_jd[0], tai_jd[1], &utc_jd[0], &utc_jd[1]);
+    eraD2dtf("UTC", 6, utc_jd[0], utc_jd[1], &year, &month, &day, time);
+    utc_write(&(glint_utc){.year = year,
+                           .month = month,
+                           .day = day,
+                           .hour = time[0],
+                           .minute = time[1],
+                           .second = time[2],
+                           .microsecond = time[3]},
+              out);
 }
 
 /* ---------------------------------------------------------- a run's time line */

@@ -12,14 +12,33 @@ typedef struct utc_time {
 
 /* Reads "2025-07-24T19:10:00Z": date, 'T' or a blank, hh:mm or hh:mm:ss with any decimals, and
  * nothing, 'Z' or an offset +hh:mm (nothing means UTC; offsets are taken off; 't' and 'z' count as
- * 'T' and 'Z'). A date alone is its 0h. Errors: GLINT_INPUT: not of that form, no such date or
- * time, a year that utc_check refuses, second 60 where there is no leap second. *out is set on
- * success only. */
+ * 'T' and 'Z'). A date alone is its 0h. The date may be a year and the day in it, "2025-205" (CCSDS
+ * 301.0-B-4, section 3.5). Errors: GLINT_INPUT: not of that form, no such date or time, a year that
+ * utc_check refuses, second 60 where there is no leap second. *out is set on success only. */
 glint_status utc_parse(const char *string, place where, utc_time *out, glint_error *error);
+
+/* Reads "24 Jul 2025 19:10:00.000", as STK writes times; months in English. Errors as above. */
+glint_status utc_parse_worded(const char *string, place where, utc_time *out, glint_error *error);
 
 /* Checks the calendar (years 1972 to 2100: UTC has whole leap seconds since 1972, the Sun's
  * ephemeris holds to 2100) and the day's length. Errors: GLINT_INPUT. */
 glint_status utc_check(const utc_time *utc, place where, glint_error *error);
+
+/* The scales in which files of others give their times. GPS runs 19 s behind TAI. */
+typedef enum time_scale { SCALE_UTC, SCALE_TAI, SCALE_TT, SCALE_TDB, SCALE_GPS } time_scale;
+/* The scale of that name, letter case ignored ("TDT" is an old name of TT). Errors: GLINT_INPUT: a
+ * scale that is not one of these; of UT1, GMST and those of other bodies or clocks the message says
+ * what is missing. */
+glint_status time_scale_find(const char *name, place where, time_scale *out, glint_error *error);
+/* "UTC": for messages. */
+const char *time_scale_name(time_scale scale);
+/* Reads a moment of a scale, written as in utc_parse (offsets of zones only in UTC), as TT in two
+ * parts, the day and the rest. TDB: by eraDtdb for the Earth's centre, to 1e-5 s. Errors as in
+ * utc_parse. */
+glint_status time_parse(const char *string, time_scale scale, place where, double tt_jd[2],
+                        glint_error *error);
+/* Writes a TT as UTC, for messages: "2025-07-24T19:10:00.000000Z", rounded to the microsecond. */
+void tt_write_utc(const double tt_jd[2], char *out);
 
 /* UTC as ERFA's two-part quasi-JD (0h of the day, fraction of the day's true length). Pass only
  * checked times. */

@@ -438,3 +438,10 @@ void sun_from_point(const frame_set *frames, const double r_gcrs_m[3], bool aber
     }
     scale3(to_sun, 1.0 / norm3(to_sun), sun_gcrs);
 }
+
+void frame_bias(double eme2000_gcrs[9])
+{
+    double bias[3][3], precession[3][3], both[3][3];
+    eraBp06(ERFA_DJ00, 0.0, bias, precession, both);
+    memcpy(eme2000_gcrs, bias, sizeof bias);
+}

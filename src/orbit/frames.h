@@ -49,6 +49,10 @@ enum { FRAME_LANES = 32 };
 void frame_grid_fill(const frame_grid *grid, const double *t_s, int n, unsigned wanted,
                      frame_set *out);
 
+/* The mean equator and equinox of J2000.0 (EME2000, "J2000") against the axes of GCRS, 23 mas
+ * apart: v_eme2000 = R v_gcrs. IAU 2006 frame bias (eraBp06). */
+void frame_bias(double eme2000_gcrs[9]);
+
 /* Direction and distance of the Sun from a point r_gcrs_m: unit vector and m. With aberration:
  * light time over the distance and stellar aberration by the Earth's barycentric velocity; without:
  * geometric. frames: must have been asked for FRAMES_SUN. distance_m: geometric in both cases. */

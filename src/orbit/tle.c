@@ -161,24 +161,35 @@ static glint_status read_field(const tle_line *l, const field *f, double *value)
     return GLINT_OK;
 }
 
-/* Reads a field and holds it against min <= value < max. */
-static glint_status read_within(const tle_line *l, const field *f, double min, double max,
+const element_range RANGE_INCLINATION_DEG = {"inclination", 0.0, 180.00005};
+const element_range RANGE_NODE_DEG = {"right ascension of the node", 0.0, 360.00005};
+const element_range RANGE_PERIGEE_DEG = {"argument of perigee", 0.0, 360.00005};
+const element_range RANGE_ANOMALY_DEG = {"mean anomaly", 0.0, 360.00005};
+const element_range RANGE_ECCENTRICITY = {"eccentricity", 0.0, 1.0};
+const element_range RANGE_MOTION_REV_DAY = {"mean motion", 1e-8, 100.0}; /* rev/day */
+static const element_range RANGE_EPOCH_DAY = {"epoch day", 1.0, 367.0};
+
+glint_status element_check(const element_range *range, double value, place where,
+                           glint_error *error)
+{
+    if (value >= range->min && value < range->max) return GLINT_OK;
+    return error_set(error, GLINT_INPUT, where, "the %s is %.9g; expected at least %g and below %g",
+                     range->name, value, range->min, range->max);
+}
+
+/* Reads a field and holds it against its range. */
+static glint_status read_within(const tle_line *l, const field *f, const element_range *range,
                                 double *value)
 {
     const glint_status status = read_field(l, f, value);
-    if (status) return status;
-    if (*value >= min && *value < max) return GLINT_OK;
-    return error_set(l->error, GLINT_INPUT, at_column(l, f->first),
-                     "the %s is %.9g; expected at least %g and below %g", f->name, *value, min,
-                     max);
+    return status ? status : element_check(range, *value, at_column(l, f->first), l->error);
 }
 
-/* Angles in degrees: 0 to 360, both ends written by catalogues. */
-static glint_status read_angle(const tle_line *l, const field *f, double *angle)
+static glint_status read_angle(const tle_line *l, const field *f, const element_range *range,
+                               double *angle)
 {
-    const double beyond_deg = 360.00005; /* the first value that four decimals tell from 360 */
     double angle_deg;
-    const glint_status status = read_within(l, f, 0.0, beyond_deg, &angle_deg);
+    const glint_status status = read_within(l, f, range, &angle_deg);
     if (!status) *angle = angle_deg * DEG;
     return status;
 }
@@ -298,7 +309,7 @@ static glint_status read_epoch(const tle_line *l, double epoch_jd[2])
 {
     double year, day;
     glint_status status = read_field(l, &epoch_year, &year);
-    if (!status) status = read_within(l, &epoch_day, 1.0, 367.0, &day);
+    if (!status) status = read_within(l, &epoch_day, &RANGE_EPOCH_DAY, &day);
     if (status) return status;
     /* Day and fraction apart, so that the fraction keeps all its decimals. */
     const double whole = floor(day);
@@ -334,9 +345,8 @@ static glint_status read_line1(const tle_line *l, bool check_sums, tle *out)
 static glint_status read_line2(const tle_line *l, bool check_sums, tle *out)
 {
     static const int blanks[] = {8, 17, 26, 34, 43, 52, 0};
-    const double beyond_180_deg = 180.00005;
     int number;
-    double inclination_deg, rev_per_day, unused;
+    double rev_per_day, unused;
     glint_status status = check_frame(l, blanks, check_sums);
     if (!status) status = read_number(l, &number);
     if (!status && number != out->number)
@@ -344,15 +354,14 @@ static glint_status read_line2(const tle_line *l, bool check_sums, tle *out)
                          "line 2 is of satellite %d and line 1 of %d; expected two lines of one "
                          "element set",
                          number, out->number);
-    if (!status) status = read_within(l, &inclination, 0.0, beyond_180_deg, &inclination_deg);
-    if (!status) status = read_angle(l, &node, &out->raan);
+    if (!status) status = read_angle(l, &inclination, &RANGE_INCLINATION_DEG, &out->inclination);
+    if (!status) status = read_angle(l, &node, &RANGE_NODE_DEG, &out->raan);
     if (!status) status = read_field(l, &eccentricity, &out->eccentricity);
-    if (!status) status = read_angle(l, &perigee, &out->argument_of_perigee);
-    if (!status) status = read_angle(l, &anomaly, &out->mean_anomaly);
-    if (!status) status = read_within(l, &mean_motion, 1e-8, 100.0, &rev_per_day);
+    if (!status) status = read_angle(l, &perigee, &RANGE_PERIGEE_DEG, &out->argument_of_perigee);
+    if (!status) status = read_angle(l, &anomaly, &RANGE_ANOMALY_DEG, &out->mean_anomaly);
+    if (!status) status = read_within(l, &mean_motion, &RANGE_MOTION_REV_DAY, &rev_per_day);
     if (!status) status = read_field(l, &revolution, &unused);
     if (status) return status;
-    out->inclination = inclination_deg * DEG;
     out->mean_motion = rev_per_day * TWO_PI / 1440.0; /* rad/min */
     return GLINT_OK;
 }

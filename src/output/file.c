@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,6 +86,41 @@ static glint_status open_beside(out_file *file, const struct stat *old, glint_er
     return GLINT_OK;
 }
 
+/* Where a link points to, from malloc; NULL where it is no link, with errno 0, or on error. */
+static char *target_of(const char *path)
+{
+    char target[PATH_MAX];
+    struct stat info;
+    errno = 0;
+    if (lstat(path, &info) != 0 || !S_ISLNK(info.st_mode)) {
+        if (errno == ENOENT) errno = 0;
+        return NULL;
+    }
+    const ssize_t n = readlink(path, target, sizeof target - 1);
+    if (n < 0) return NULL;
+    target[n] = '\0';
+    return path_beside(path, target);
+}
+
+/* The name of a file that does not exist yet, from malloc: what a chain of links ends at. NULL on
+ * error. */
+static char *name_behind_links(const char *path)
+{
+    enum { MOST_LINKS = 40 }; /* as many as Linux follows */
+    char *name = string_copy(path, strlen(path));
+    for (int k = 0; name; k++) {
+        char *target = target_of(name);
+        if (!target && errno == 0) return name;
+        free(name);
+        name = target;
+        if (k < MOST_LINKS) continue;
+        free(name);
+        errno = ELOOP;
+        return NULL;
+    }
+    return NULL;
+}
+
 static glint_status open_path(out_file *file, const char *path, glint_error *error)
 {
     struct stat info;
@@ -102,7 +138,7 @@ static glint_status open_path(out_file *file, const char *path, glint_error *err
         return file->fd < 0 ? fail(path, "open it", error) : GLINT_OK;
     }
     if (exists && access(path, W_OK) != 0) return fail(path, "write to it", error);
-    file->path = exists ? realpath(path, NULL) : string_copy(path, strlen(path));
+    file->path = exists ? realpath(path, NULL) : name_behind_links(path);
     if (!file->path) return fail(path, "find it", error);
     return open_beside(file, exists ? &info : NULL, error);
 }

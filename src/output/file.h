@@ -8,8 +8,8 @@
 typedef struct out_file out_file;
 
 /* path: NULL for standard output. A regular file (or nothing yet) at `path` is replaced only by
- * out_file_commit; a link is followed; a pipe or device is written to at once. Errors:
- * GLINT_OUTPUT. */
+ * out_file_commit; a link is followed, also to where there is nothing yet; a pipe or device is
+ * written to at once. Errors: GLINT_OUTPUT. */
 glint_status out_file_open(const char *path, out_file **out, glint_error *error);
 /* Errors: GLINT_OUTPUT. */
 glint_status out_file_write(out_file *file, const char *bytes, size_t n, glint_error *error);

@@ -92,7 +92,8 @@ static void write_number(text *t, double value)
     text_double(t, value);
 }
 
-static void write_value(const glint_material_view *view, const char *label,
+/* Writes a row; true where its value was not measured. */
+static bool write_value(const glint_material_view *view, const char *label,
                         const glint_material *material, const view_point *p, text *t)
 {
     const double f = view_point_brdf(material, p);
@@ -105,6 +106,7 @@ static void write_value(const glint_material_view *view, const char *label,
     write_number(t, f);
     write_number(t, view_point_g(p, f));
     text_char(t, '\n');
+    return view_point_is_unmeasured(material, p, f);
 }
 
 static glint_status write_reflectance(const char *label, const glint_material *material,
@@ -138,6 +140,7 @@ static glint_status write_rows(const glint_material_view *view, const char *labe
                                out_file *file, glint_errors *errors)
 {
     enum { AT_ONCE = 1 << 16 }; /* bytes */
+    long n = 0, n_unmeasured = 0;
     for (size_t k = 0; k < points->n; k++) {
         const view_point *p = &points->items[k];
         /* the normal is one direction, whatever its azimuth */
@@ -148,10 +151,16 @@ static glint_status write_rows(const glint_material_view *view, const char *labe
         if (view->kind == GLINT_VIEW_DHR)
             status = write_reflectance(label, material, p, t, errors);
         else
-            write_value(view, label, material, p, t);
+            n_unmeasured += write_value(view, label, material, p, t);
+        n++;
         if (!status && t->length > AT_ONCE) status = flush(t, file, errors);
         if (status) return status;
     }
+    if (n_unmeasured > 0)
+        errors_warn(errors, PLACE_NONE,
+                    "%ld of the %ld values of '%s' lie outside of what was measured, and are the "
+                    "nearest measured ones",
+                    n_unmeasured, n, label);
     return flush(t, file, errors);
 }
 
@@ -170,6 +179,21 @@ static glint_status write_all(const glint_material *const *materials, size_t n,
     return status;
 }
 
+/* Says what f leaves out. */
+static void warn_of_mirrors(const glint_material *const *materials, size_t n,
+                            const glint_material_view *view, glint_errors *errors)
+{
+    if (view->kind == GLINT_VIEW_DHR) return;
+    for (size_t k = 0; k < n; k++) {
+        const double part = glint_material_mirrored(materials[k], 0);
+        if (part > 0)
+            errors_warn(errors, PLACE_NONE,
+                        "'%s' is a perfect mirror for %.4g of the light at normal incidence: that "
+                        "goes into one direction alone and is not in f; --dhr counts it",
+                        view_label(view, materials, k), part);
+    }
+}
+
 glint_status glint_material_table_write(const glint_material *const *materials, size_t n,
                                         const glint_material_view *view, const char *path,
                                         glint_errors *errors)
@@ -177,6 +201,7 @@ glint_status glint_material_table_write(const glint_material *const *materials, 
     view_points points;
     glint_status status = view_points_make(view, &points, errors);
     if (status) return status;
+    warn_of_mirrors(materials, n, view, errors);
     out_file *file;
     glint_error error;
     status = out_file_open(path, &file, &error);

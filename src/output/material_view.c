@@ -1,7 +1,9 @@
 #include "output/material_view.h"
 
+#include "base/angle.h"
 #include "base/constants.h"
 #include "base/csv.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -139,7 +141,56 @@ static glint_status read_row(const csv_table *table, long row, const int columns
     return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
 }
 
-static glint_status read_angles(const char *path, view_points *points, glint_errors *errors)
+/* Refuses angles that look like rad. */
+static glint_status check_unit(const csv_table *table, const int columns[4],
+                               const view_points *points, glint_errors *errors)
+{
+    double zenith = 0, azimuth = 0;
+    long row = 0;
+    int column = 0;
+    for (size_t k = 0; k < points->n; k++) {
+        const view_point *p = &points->items[k];
+        azimuth = fmax(azimuth, fmax(fabs(p->phi_i_deg), fabs(p->phi_r_deg)));
+        const double zeniths[2] = {fabs(p->theta_i_deg), fabs(p->theta_r_deg)};
+        for (int j = 0; j < 2; j++) {
+            if (!(zeniths[j] > zenith)) continue;
+            zenith = zeniths[j];
+            row = (long)k;
+            column = columns[2 * j];
+        }
+    }
+    if (!angles_look_like_rad(zenith, azimuth)) return GLINT_OK;
+    const csv_cell *cell = csv_at(table, row, column);
+    return errors_add(errors, GLINT_INPUT, csv_place(table, cell),
+                      "the largest angle from the normal is %.40s: these look like radians; "
+                      "expected degrees, or --angles deg where degrees are so small",
+                      cell->text);
+}
+
+/* Says that there is no column of that name, and which may be meant. names: the n that there ought
+ * to be. */
+static glint_status refuse_column(const csv_table *table, const char *name,
+                                  const char *const *names, int n, glint_errors *errors)
+{
+    enum { MOST = 256 };
+    const char *others[MOST]; /* columns that have no use */
+    size_t n_others = 0;
+    for (int c = 0; c < table->n_columns && n_others < MOST; c++) {
+        const char *here = csv_at(table, -1, c)->text;
+        bool used = false;
+        for (int k = 0; k < n; k++)
+            used = used || string_equal(here, names[k]);
+        if (!used) others[n_others++] = here;
+    }
+    const char *near = nearest_name(name, others, n_others);
+    return errors_add(errors, GLINT_INPUT, csv_place(table, csv_at(table, -1, 0)),
+                      "there is no column '%s'%s%.40s%s; expected theta_i_deg, phi_i_deg, "
+                      "theta_r_deg and phi_r_deg",
+                      name, near ? " (is '" : "", near ? near : "", near ? "' meant?)" : "");
+}
+
+static glint_status read_angles(const char *path, bool unit_given, view_points *points,
+                                glint_errors *errors)
 {
     static const char *const NAMES[4] = {"theta_i_deg", "phi_i_deg", "theta_r_deg", "phi_r_deg"};
     csv_table table;
@@ -148,11 +199,7 @@ static glint_status read_angles(const char *path, view_points *points, glint_err
     if (status) return status;
     for (int k = 0; k < 4; k++) {
         columns[k] = csv_column(&table, NAMES[k]);
-        if (columns[k] < 0)
-            status = errors_add(errors, GLINT_INPUT, csv_place(&table, csv_at(&table, -1, 0)),
-                                "there is no column '%s'; expected theta_i_deg, phi_i_deg, "
-                                "theta_r_deg and phi_r_deg",
-                                NAMES[k]);
+        if (columns[k] < 0) status = refuse_column(&table, NAMES[k], NAMES, 4, errors);
     }
     if (!status && table.n_rows == 0)
         status = errors_add(errors, GLINT_INPUT, (place){path, 0, 0},
@@ -163,6 +210,7 @@ static glint_status read_angles(const char *path, view_points *points, glint_err
         if (row_status > status) status = row_status;
         if (status == GLINT_INTERNAL) break;
     }
+    if (!status && !unit_given) status = check_unit(&table, columns, points, errors);
     csv_free(&table);
     points->starts = calloc(2, sizeof *points->starts);
     if (!points->starts) return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
@@ -203,7 +251,7 @@ glint_status view_points_make(const glint_material_view *view, view_points *out,
     glint_status status = view_check(view, errors);
     if (status) return status;
     if (view->kind == GLINT_VIEW_ANGLES)
-        status = read_angles(view->angles, out, errors);
+        status = read_angles(view->angles, view->unit_given, out, errors);
     else if (!add_runs(view, out))
         status = errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
     if (status) view_points_free(out);
@@ -216,6 +264,13 @@ double view_point_brdf(const glint_material *material, const view_point *point)
     glint_material_brdf(material, point->theta_i_deg * DEG, point->phi_i_deg * DEG,
                         point->theta_r_deg * DEG, point->phi_r_deg * DEG, &f, NULL);
     return f;
+}
+
+bool view_point_is_unmeasured(const glint_material *material, const view_point *point, double f)
+{
+    return f > 0 &&
+           !glint_material_covers(material, point->theta_i_deg * DEG, point->phi_i_deg * DEG,
+                                  point->theta_r_deg * DEG, point->phi_r_deg * DEG);
 }
 
 double view_point_g(const view_point *point, double f)

@@ -30,6 +30,8 @@ void view_points_free(view_points *points);
 
 /* f, 1/sr, of a material at a point. */
 double view_point_brdf(const glint_material *material, const view_point *point);
+/* Whether f is made up at a point: light shines there, and nothing was measured around. */
+bool view_point_is_unmeasured(const glint_material *material, const view_point *point, double f);
 /* f cos(theta_i) cos(theta_r) at a point where f is known. */
 double view_point_g(const view_point *point, double f);
 /* The reflectance at a point of GLINT_VIEW_DHR and its error; a warning where it is worse than

@@ -2,6 +2,7 @@
 #include "base/text.h"
 #include "brdf/dhr.h"
 #include "brdf/peak.h"
+#include "brdf/table.h"
 #include "scenario/read_material.h"
 
 #include <math.h>
@@ -190,6 +191,7 @@ static void read_alone(reading *rd, const toml_node *table, glint_material *out)
     }
     sat->n_materials = 1;
     read_material(rd, table, &sat->materials[0]);
+    measured_cache_free(&rd->tables);
     if (rd->status) return;
     warn_of_materials(rd);
     describe(&sat->materials[0].bands[0], &out->model);
@@ -300,15 +302,39 @@ glint_status glint_material_brdf(const glint_material *material, double theta_i,
     return GLINT_OK;
 }
 
+bool glint_material_covers(const glint_material *material, double theta_i, double phi_i,
+                           double theta_r, double phi_r)
+{
+    const brdf_material *function = &inside(material)->bands[0];
+    double i[3], r[3];
+    angles_to_unit(theta_i, phi_i, i);
+    angles_to_unit(theta_r, phi_r, r);
+    for (int k = 0; k < function->n_lobes; k++) {
+        const brdf_lobe *lobe = &function->lobes[k];
+        if (lobe->model->flags & BRDF_MEASURED && lobe->weight != 0.0 && !table_covers(lobe, i, r))
+            return false;
+    }
+    return true;
+}
+
+double glint_material_mirrored(const glint_material *material, double theta_i)
+{
+    const double ci = cos(theta_i);
+    if (!(theta_i >= 0.0 && ci > BRDF_EDGE)) return 0.0;
+    return brdf_material_specular(&inside(material)->bands[0], ci);
+}
+
 glint_status glint_material_dhr(const glint_material *material, double theta_i, double phi_i,
                                 double *dhr, double *error_bound, glint_error *error)
 {
-    static const double TOLERANCE = 1e-8; /* relative */
+    /* relative; measured values are good to a percent, and their table is dear and not smooth */
+    static const double TOLERANCE = 1e-8, OF_MEASURED = 1e-5;
     if (!isfinite(theta_i) || !isfinite(phi_i))
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
                          "an angle is not finite; expected two angles in rad");
-    return brdf_dhr(&inside(material)->bands[0], theta_i, phi_i, TOLERANCE, dhr, error_bound,
-                    error);
+    const brdf_material *function = &inside(material)->bands[0];
+    const double tolerance = brdf_material_is_measured(function) ? OF_MEASURED : TOLERANCE;
+    return brdf_dhr(function, theta_i, phi_i, tolerance, dhr, error_bound, error);
 }
 
 bool glint_material_peak(const glint_material *material, double theta_i, double phi_i,

@@ -5,8 +5,9 @@
  * Each entry gives the same parameters at its wavelength, the wavelengths in rising order. A band
  * takes a number linearly between the two entries around its pivot wavelength; outside, that of the
  * nearest. Keys of [materials.NAME.bands.X] win over the spectrum, the spectrum over the material's
- * own. In an entry wavelength_um is always the entry's place, also where the model has a parameter
- * of that name (the Ward models), which a spectrum therefore cannot change. */
+ * own. A band that names another `brdf` has no spectrum. In an entry wavelength_um is always the
+ * entry's place, also where the model has a parameter of that name (the Ward models), which a
+ * spectrum therefore cannot change. */
 #include "scenario/read_lobe.h"
 
 #include "base/text.h"
@@ -52,6 +53,12 @@ static void check_entry(reader *r, const brdf_model *model, const toml_node *spe
     if (reader_done(&inner) > r->status) r->status = inner.status;
 }
 
+/* Whether the overlay names a model of its own: the table's spectrum is not for that. */
+static bool names_model(const toml_node *overlay)
+{
+    return overlay && toml_child(overlay, "brdf");
+}
+
 /* Checks the whole spectrum and returns it; NULL when there is none to be used. */
 static const toml_node *check_spectrum(reader *r, const brdf_model *model)
 {
@@ -59,7 +66,7 @@ static const toml_node *check_spectrum(reader *r, const brdf_model *model)
         reader_fail(r, toml_child(r->overlay, "spectrum")->key_where,
                     "a band has no 'spectrum'; expected the numbers in this band");
     const toml_node *node = toml_child(r->table, "spectrum");
-    if (!node) return NULL;
+    if (!node || names_model(r->overlay)) return NULL;
     reader inner = reader_start(r->table, r->name, r->errors);
     if (!reader_tables(&inner, "spectrum") && inner.status == GLINT_OK)
         reader_fail(&inner, node->where,
@@ -185,7 +192,7 @@ bool spectrum_used(const toml_node *table, const toml_node *overlay, const band_
                    spectrum_use *use)
 {
     const toml_node *spectrum = toml_child(table, "spectrum");
-    if (!spectrum) return false;
+    if (!spectrum || names_model(overlay)) return false;
     *use = (spectrum_use){.lowest_um = entry_um(spectrum, 0),
                           .highest_um = entry_um(spectrum, spectrum->n_children - 1)};
     if (band->pivot_um >= use->lowest_um && band->pivot_um <= use->highest_um) return true;

@@ -29,12 +29,6 @@ static int param_index(const brdf_model *brdf, const char *name)
     return -1;
 }
 
-/* BRDFs that are planned: their names are known, and refused by name. */
-static bool is_planned(const char *brdf)
-{
-    return string_equal(brdf, "mirror");
-}
-
 static const brdf_model *read_brdf_name(reader *r, bool in_sum)
 {
     const char *name, *names[64];
@@ -49,28 +43,22 @@ static const brdf_model *read_brdf_name(reader *r, bool in_sum)
     for (size_t k = 0; k < n; k++)
         text_printf(&list, "%s%s", k ? ", " : "", names[k]);
     const char *near = nearest_name(name, names, n);
-    if (is_planned(name))
-        reader_fail(r, reader_place(r, "brdf"),
-                    "the BRDF '%s' is not built yet; expected one of: %s", name,
-                    list.data ? list.data : "");
-    else
-        reader_fail(r, reader_place(r, "brdf"),
-                    "there is no BRDF '%.40s'%s%s%s; expected one of: %s", name,
-                    near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "",
-                    list.data ? list.data : "");
+    reader_fail(r, reader_place(r, "brdf"), "there is no BRDF '%.40s'%s%s%s; expected one of: %s",
+                name, near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "",
+                list.data ? list.data : "");
     text_free(&list);
     return NULL;
 }
 
 /* The keys of a lobe: those of its model. band: NULL, or where the wavelength follows the band. */
 static void read_lobe(reader *r, const brdf_model *brdf, const band_info *band, double weight,
-                      brdf_lobe *out)
+                      measured_cache *tables, brdf_lobe *out)
 {
     *out = (brdf_lobe){.model = brdf, .weight = weight};
     const glint_status before = r->status;
     r->status = GLINT_OK;
     read_lobe_params(r, band, out);
-    if (brdf->flags & BRDF_MEASURED) read_measured(r, out);
+    if (brdf->flags & BRDF_MEASURED) read_measured(r, tables, out);
     bool follow = false;
     if (brdf->flags & BRDF_WAVELENGTH) {
         reader_boolean(r, "follow_band", false, &follow);
@@ -98,7 +86,7 @@ static bool make_lobes(reader *r, int n, brdf_material *out)
     return true;
 }
 
-static void read_parts(reader *r, const band_info *band, brdf_material *out)
+static void read_parts(reader *r, const band_info *band, measured_cache *tables, brdf_material *out)
 {
     static const param_info WEIGHT = {"weight", "", "", 0, 1e6, 1, 0};
     const toml_node *parts = reader_tables(r, "parts");
@@ -114,7 +102,7 @@ static void read_parts(reader *r, const band_info *band, brdf_material *out)
         reader_param(&inner, &WEIGHT, &weight);
         const brdf_model *brdf = read_brdf_name(&inner, true);
         if (brdf) {
-            read_lobe(&inner, brdf, band, weight, &out->lobes[i]);
+            read_lobe(&inner, brdf, band, weight, tables, &out->lobes[i]);
             reader_done(&inner);
         }
         if (inner.status > r->status) r->status = inner.status;
@@ -123,14 +111,13 @@ static void read_parts(reader *r, const band_info *band, brdf_material *out)
 
 /* One material, one band: overlay holds the keys that differ in it (NULL: none). band NULL: without
  * a band. Errors leave *out empty. */
-static glint_status read_function(const toml_node *table, const toml_node *overlay,
-                                  const band_info *band, brdf_material *out, const char *name,
-                                  glint_errors *errors)
+static glint_status read_function(reading *rd, const toml_node *table, const toml_node *overlay,
+                                  const band_info *band, brdf_material *out)
 {
     char what[96];
-    snprintf(what, sizeof what, "[materials.%s%s%s]", name, overlay ? ".bands." : "",
+    snprintf(what, sizeof what, "[materials.%s%s%s]", table->key, overlay ? ".bands." : "",
              overlay ? overlay->key : "");
-    reader r = reader_start(table, what, errors);
+    reader r = reader_start(table, what, rd->errors);
     r.overlay = overlay;
     *out = (brdf_material){0};
     reader_has(&r, "source");
@@ -141,12 +128,12 @@ static glint_status read_function(const toml_node *table, const toml_node *overl
     const bool is_sum =
         brdf_node && brdf_node->type == TOML_STRING && string_equal(brdf_node->string, "sum");
     if (is_sum) {
-        read_parts(&r, band, out);
+        read_parts(&r, band, &rd->tables, out);
         reader_done(&r);
     } else {
         const brdf_model *brdf = read_brdf_name(&r, false);
         if (brdf && make_lobes(&r, 1, out)) {
-            read_lobe(&r, brdf, band, 1.0, &out->lobes[0]);
+            read_lobe(&r, brdf, band, 1.0, &rd->tables, &out->lobes[0]);
             reader_done(&r);
         }
     }
@@ -215,7 +202,7 @@ static void check_other_bands(reading *rd, const toml_node *table)
             used = used || s->bands[b] == band;
         if (used || !band || overlay->type != TOML_TABLE) continue;
         brdf_material unused;
-        reading_note(rd, read_function(table, overlay, band, &unused, table->key, rd->errors));
+        reading_note(rd, read_function(rd, table, overlay, band, &unused));
         brdf_material_free(&unused);
     }
 }
@@ -231,7 +218,7 @@ void read_material(reading *rd, const toml_node *table, scenario_material *out)
     band_overlay(rd, table, NULL, true);
     read_holds(rd, table, out->holds_um);
     brdf_material base;
-    glint_status status = read_function(table, NULL, NULL, &base, out->name, rd->errors);
+    glint_status status = read_function(rd, table, NULL, NULL, &base);
     reading_note(rd, status);
     if (status) return;
     brdf_material_free(&base);
@@ -243,7 +230,7 @@ void read_material(reading *rd, const toml_node *table, scenario_material *out)
     for (int b = 0; b < s->n_bands; b++) {
         const char *band = s->bands[b] ? s->bands[b]->name : NULL;
         const toml_node *overlay = band_overlay(rd, table, band, false);
-        status = read_function(table, overlay, s->bands[b], &out->bands[b], out->name, rd->errors);
+        status = read_function(rd, table, overlay, s->bands[b], &out->bands[b]);
         reading_note(rd, status);
         if (status) return;
     }
@@ -367,6 +354,7 @@ void read_materials(reading *rd, reader *r)
     const toml_node *tables = reader_table(r, "materials", false);
     if (tables) add_materials(rd, tables);
     if (rd->status == GLINT_OK) refuse_lost_overrides(rd);
+    measured_cache_free(&rd->tables);
 }
 
 /* ---------------------------------------------------------------- warnings */
@@ -469,6 +457,26 @@ static void warn_of_spectra(reading *rd, const scenario_material *material, cons
     if (!parts) parts = toml_child(material->table, "parts");
     for (int k = 0; parts && k < parts->n_children; k++)
         warn_of_spectrum(rd, material, &parts->children[k], NULL, band);
+}
+
+void refuse_mirrors(reading *rd)
+{
+    const glint_scenario *s = rd->s;
+    if (s->solar_disc != SOLAR_POINT) return;
+    for (int m = 0; m < s->satellite.n_materials; m++) {
+        const scenario_material *material = &s->satellite.materials[m];
+        bool found = false;
+        for (int b = 0; b < s->n_bands && !found; b++)
+            for (int l = 0; l < material->bands[b].n_lobes; l++)
+                found = found || material->bands[b].lobes[l].model->specular;
+        if (found)
+            reading_note(rd, errors_add(rd->errors, GLINT_INPUT, material->where,
+                                        "material '%s' is a perfect mirror, which shows the Sun's "
+                                        "disc, and the Sun is a point here (solar_disc = "
+                                        "\"point\"); expected solar_disc = \"uniform\", or a "
+                                        "narrow lobe such as brdf = \"ward-gmd\"",
+                                        material->name));
+    }
 }
 
 void warn_of_materials(reading *rd)

@@ -12,6 +12,8 @@ void read_materials(reading *rd, reader *r);
 void read_material(reading *rd, const toml_node *table, scenario_material *out);
 /* What a material is as a function, in its one band; borrowed. */
 const brdf_material *material_function(const glint_material *material);
+/* Refuses the materials in use that are perfect mirrors: a point Sun has no image in them. */
+void refuse_mirrors(reading *rd);
 /* Warns of materials that are used where their parameters do not hold. */
 void warn_of_materials(reading *rd);
 void scenario_material_free(scenario_material *material);

@@ -17,6 +17,8 @@ void satellite_free(satellite *sat)
     for (int m = 0; m < sat->n_materials; m++)
         scenario_material_free(&sat->materials[m]);
     free(sat->materials);
+    for (int c = 0; c < sat->n_components; c++)
+        hinge_free(&sat->components[c].hinge);
     free(sat->components);
     free(sat->order);
     model_free(&sat->model);

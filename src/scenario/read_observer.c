@@ -73,19 +73,7 @@ static void mask_from_list(reading *rd, reader *r, mask *m)
     }
 }
 
-/* The rows of a table, but a last one that may be cut. */
-static long whole_rows(reading *rd, const csv_table *csv)
-{
-    if (csv->n_rows == 0) return 0;
-    const csv_cell *last = csv_at(csv, csv->n_rows - 1, 0);
-    if (last->line != csv->unended_line) return csv->n_rows;
-    errors_warn(rd->errors, (place){csv->path, last->line, 1},
-                "the last line has no line end and may be cut, so it is left out; if it is whole, "
-                "end it with a line end");
-    return csv->n_rows - 1;
-}
-
-static void mask_from_table(reading *rd, const csv_table *csv, mask *m)
+static void mask_from_table(reading *rd, csv_table *csv, mask *m)
 {
     const int azimuth = csv_column(csv, MASK_AZIMUTH.name);
     const int elevation = csv_column(csv, MASK_ELEVATION.name);
@@ -96,7 +84,8 @@ static void mask_from_table(reading *rd, const csv_table *csv, mask *m)
                                     azimuth < 0 ? MASK_AZIMUTH.name : MASK_ELEVATION.name));
         return;
     }
-    const long n = whole_rows(rd, csv);
+    csv_leave_out_cut_row(csv, rd->errors);
+    const long n = csv->n_rows;
     if (n < 1 || n > MOST_MASK_POINTS) {
         reading_note(rd, errors_add(rd->errors, GLINT_INPUT, (place){csv->path, 0, 0},
                                     "the table has %ld whole rows; expected 1 to %d", n,

@@ -1,6 +1,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "scenario/read_material.h"
 #include "scenario/reading.h"
 
 #include <math.h>
@@ -327,18 +328,14 @@ static void refuse_extinction(reader *r)
 
 static void read_photometry(reading *rd, reader *root)
 {
-    static const char *const DISCS[] = {"point", "uniform", "limb-darkened"};
+    static const char *const DISCS[] = {"uniform", "limb-darkened", "point"}; /* as the enum */
     static const toml_node NOTHING = {.type = TOML_TABLE};
     const toml_node *table = reader_table(root, "photometry", false);
     reader r = reader_start(table ? table : &NOTHING, "[photometry]", rd->errors);
     int disc;
     read_bands(rd, &r);
     reader_choice(&r, "solar_disc", DISCS, 3, 0, &disc);
-    if (disc != 0)
-        reader_fail(&r, reader_place(&r, "solar_disc"),
-                    "solar_disc = \"%s\" is not built yet: this version takes the Sun's light from "
-                    "the centre of its disc; expected \"point\"",
-                    DISCS[disc]);
+    rd->s->solar_disc = (solar_disc_choice)disc;
     const toml_node *earthshine = reader_find(&r, "earthshine");
     if (earthshine && (earthshine->type != TOML_BOOLEAN || earthshine->boolean))
         reader_fail(&r, earthshine->where,
@@ -449,7 +446,7 @@ static bool wants_moon(const glint_scenario *s)
             s->satellite.components[c].hinge.drive == HINGE_TRACK &&
             s->satellite.components[c].hinge.target.kind == DIRECTION_MOON)
             return true;
-    return attitude_wants(&s->attitude, DIRECTION_MOON);
+    return attitude_plan_wants(&s->attitude, DIRECTION_MOON);
 }
 
 /* Observers that are fixed in the body need its attitude, which must not look for them in turn. */
@@ -463,7 +460,7 @@ static void check_body_directions(reading *rd)
             reading_note(rd, errors_add(rd->errors, GLINT_INPUT, o->where,
                                         "the observer is fixed in the body frame, and there is no "
                                         "[attitude]; expected one"));
-        else if (attitude_wants(&s->attitude, DIRECTION_OBSERVER))
+        else if (attitude_plan_wants(&s->attitude, DIRECTION_OBSERVER))
             reading_note(rd, errors_add(rd->errors, GLINT_INPUT, o->where,
                                         "the observer is fixed in the body frame, and the attitude "
                                         "follows the observer; expected one of them"));
@@ -494,8 +491,8 @@ static void read_all(reading *rd, toml_document *document)
         read_corrections(rd, &root);
         read_time(rd, &root);
         read_observers(rd, &root);
-        const toml_node *orbit_table = reader_table(&root, "orbit", true);
-        if (orbit_table) read_orbit(rd, orbit_table, "[orbit]", &s->orbit);
+        const toml_node *orbit_node = reader_table(&root, "orbit", true);
+        if (orbit_node) read_orbit(rd, orbit_node, "[orbit]", &s->orbit);
         s->has_attitude = !rd->orbit_only || reader_has(&root, "attitude");
         if (s->has_attitude) read_attitude(rd, &root);
         check_body_directions(rd);
@@ -503,6 +500,7 @@ static void read_all(reading *rd, toml_document *document)
     read_output(rd, &root);
     s->has_satellite = !rd->orbit_only || names_satellite(&root);
     if (s->has_satellite) read_satellite(rd, &root);
+    if (rd->status == GLINT_OK) refuse_mirrors(rd);
     s->needs_moon = !s->has_geometry && rd->status == GLINT_OK && wants_moon(s);
     read_expectations(rd, &root);
     reader_refuse(&root, "observed", "comparing with an observed track comes later");
@@ -557,7 +555,10 @@ static glint_status read_scenario(const char *path, const char *const *overrides
                                   size_t n_overrides, bool orbit_only, glint_scenario **out,
                                   glint_errors *errors)
 {
-    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK, orbit_only};
+    reading rd = {.overrides = overrides,
+                  .n_overrides = n_overrides,
+                  .errors = errors,
+                  .orbit_only = orbit_only};
     const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;
@@ -591,7 +592,7 @@ glint_status glint_scenario_read_orbit(const char *path, const char *const *over
 glint_status scenario_read_model(const char *path, const char *const *overrides, size_t n_overrides,
                                  glint_scenario **out, glint_errors *errors)
 {
-    reading rd = {NULL, overrides, n_overrides, errors, GLINT_OK, false};
+    reading rd = {.overrides = overrides, .n_overrides = n_overrides, .errors = errors};
     const size_t first_error = glint_errors_count(errors);
     toml_document *document;
     *out = NULL;
@@ -634,7 +635,8 @@ void glint_scenario_free(glint_scenario *s)
     if (!s) return;
     expectations_free(s);
     satellite_free(&s->satellite);
-    orbit_free(s->orbit.propagator);
+    scenario_orbit_free(&s->orbit);
+    attitude_plan_free(&s->attitude);
     observers_free(s);
     eop_free(s->eop);
     free(s->geometry.sun);

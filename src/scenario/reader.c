@@ -50,8 +50,7 @@ static void report_unknown(reader *r, const toml_node *table)
 
 glint_status reader_done(reader *r)
 {
-    report_unknown(r, r->table);
-    report_unknown(r, r->overlay);
+    report_unknown(r, r->overlay ? r->overlay : r->table);
     return r->status;
 }
 

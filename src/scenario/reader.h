@@ -22,7 +22,9 @@ typedef struct reader {
 
 /* Starts reading a table (a node of type TOML_TABLE). */
 reader reader_start(const toml_node *table, const char *name, glint_errors *errors);
-/* Reports the keys that were not asked for, naming the nearest known one; returns the status. */
+/* Reports the keys that were not asked for, naming the nearest known one; returns the status. With
+ * an overlay those of the overlay alone: the table has been read without it before, and may have
+ * keys that count only there. */
 glint_status reader_done(reader *r);
 /* Adds an error at a place and marks the reading as failed. */
 void reader_fail(reader *r, place where, const char *format, ...) GLINT_PRINTF(3, 4);

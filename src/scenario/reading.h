@@ -2,6 +2,7 @@
 #ifndef GLINT_SCENARIO_READING_H
 #define GLINT_SCENARIO_READING_H
 
+#include "scenario/read_measured.h"
 #include "scenario/reader.h"
 #include "scenario/scenario.h"
 
@@ -11,8 +12,9 @@ typedef struct reading {
     const char *const *overrides; /* borrowed */
     size_t n_overrides;
     glint_errors *errors;
-    glint_status status; /* the worst so far */
-    bool orbit_only;     /* [attitude] and the satellite may be absent */
+    glint_status status;   /* the worst so far */
+    bool orbit_only;       /* [attitude] and the satellite may be absent */
+    measured_cache tables; /* files of measured BRDFs; ended where the materials end */
 } reading;
 
 /* Keeps the worst of the statuses. */
@@ -37,6 +39,7 @@ bool read_direction(reader *r, const char *key, bool required, direction *out);
 
 /* The table of an orbit; name: "[orbit]", for messages. */
 void read_orbit(reading *rd, const toml_node *table, const char *name, scenario_orbit *out);
+void scenario_orbit_free(scenario_orbit *o);
 /* [observer], or every [[observer]]: after [time]. */
 void read_observers(reading *rd, reader *root);
 void observers_free(glint_scenario *s);

@@ -5,7 +5,7 @@
 #include "base/band.h"
 #include "base/csv.h"
 #include "facets/model.h"
-#include "orbit/attitude.h"
+#include "orbit/attitude_plan.h"
 #include "orbit/earth.h"
 #include "orbit/hinge.h"
 #include "orbit/horizon.h"
@@ -47,7 +47,8 @@ typedef struct satellite {
 } satellite;
 
 typedef enum orbit_source {
-    ORBIT_TLE,
+    ORBIT_TLE,       /* element sets, from two lines or OMM */
+    ORBIT_POSITIONS, /* a table of positions */
     ORBIT_KEPLER,
     ORBIT_CIRCULAR,
     ORBIT_GEOSTATIONARY
@@ -56,7 +57,8 @@ typedef enum orbit_source {
 /* An orbit: how the scenario says it, and what propagates it. */
 typedef struct scenario_orbit {
     orbit_source source;
-    tle tle;
+    tle_list sets;          /* TLE; owned */
+    const char *file;       /* of element sets or positions, as written; borrowed; NULL without */
     kepler_elements kepler; /* KEPLER and CIRCULAR */
     double epoch_s;         /* of these: TT s from the start */
     bool j2;
@@ -88,6 +90,13 @@ typedef struct scenario_observer {
 } scenario_observer;
 
 typedef enum self_shadows { SHADOWS_EXACT, SHADOWS_NONE } self_shadows;
+
+/* What the Sun is to the facets; to the Earth's shadow it is a disc in any case. */
+typedef enum solar_disc_choice {
+    SOLAR_UNIFORM,
+    SOLAR_LIMB_DARKENED,
+    SOLAR_POINT
+} solar_disc_choice;
 
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
@@ -161,7 +170,7 @@ struct glint_scenario {
     scenario_orbit orbit;
 
     bool has_attitude, has_satellite; /* false only where they may be absent, and are */
-    attitude attitude;
+    attitude_plan attitude;
     bool needs_moon; /* attitude or a hinge asks for the Moon */
     satellite satellite;
     self_shadows self_shadows;
@@ -170,6 +179,7 @@ struct glint_scenario {
     const band_info *bands[SCENARIO_MAX_BANDS];
     magnitude_system systems[SCENARIO_MAX_BANDS];
     double sun_magnitude[SCENARIO_MAX_BANDS];
+    solar_disc_choice solar_disc;
     bool has_extinction;
     double extinction[SCENARIO_MAX_BANDS]; /* mag per airmass; 0 without */
 

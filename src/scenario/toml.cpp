@@ -348,6 +348,11 @@ extern "C" glint_status toml_override(toml_document *document, const char *assig
                    "--set '%s': the value must be TOML: texts stand in quotes, as in "
                    "--set 'orbit.tle_name=\"HST\"'",
                    assignment);
+    if (!status && from.n_children == 0) // a comment: '#=1'
+        status = errors_add(errors, GLINT_ARGUMENT, PLACE_NONE,
+                            "--set '%s': there is no key; expected key=value, as in "
+                            "time.step_s=0.5",
+                            assignment);
     if (!status) status = merge(&document->root, &from, assignment, errors);
     release(&from);
     return status;

@@ -1,0 +1,122 @@
+#include "facets/lobe_tile.h"
+
+#include "base/vec.h"
+#include "facets/curved_parts.h"
+
+/* Facets that are handed to the kernel together. Their number is fixed, so that a lane's sum is the
+ * same whatever the other lanes are. */
+enum { CHUNK = 16 };
+
+/* One lobe on its way over the facets. */
+typedef struct lobe_run {
+    curved_tile tile;
+    bool curved, disc; /* what must be looked for */
+    const double *visible;
+} lobe_run;
+
+static void fill_left(const double *seen, double left[BRDF_TILE])
+{
+    for (int lane = 0; lane < BRDF_TILE; lane++)
+        left[lane] = seen ? seen[lane] : 1.0;
+}
+
+static void frame_of(const brdf_facets *facets, int k, double frame[9])
+{
+    for (int j = 0; j < 3; j++) {
+        frame[j] = facets->tangent[j][k];
+        frame[3 + j] = facets->bitangent[j][k];
+        frame[6 + j] = facets->normal[j][k];
+    }
+}
+
+/* Takes the mean over the disc for these lanes of facet k, and takes them out of `left`. */
+static void add_blurred(lobe_run *run, int k, uint32_t lanes, double left[BRDF_TILE])
+{
+    curved_tile *t = &run->tile;
+    double frame[9];
+    frame_of(t->facets, k, frame);
+    for (int lane = 0; lane < BRDF_TILE; lane++) {
+        if (!(lanes >> lane & 1)) continue;
+        const double part = left[lane];
+        left[lane] = 0.0;
+        if (!(part > 0.0)) continue;
+        const disc_sample sample = {.shape = t->shape, .disc = t->disc, .lane = lane};
+        double i[3], r[3];
+        const double light_i[3] = {t->light->i[0][lane], t->light->i[1][lane],
+                                   t->light->i[2][lane]};
+        const double light_r[3] = {t->light->r[0][lane], t->light->r[1][lane],
+                                   t->light->r[2][lane]};
+        mat_vec(frame, light_i, i);
+        mat_vec(frame, light_r, r);
+        disc_push(&t->batch, &sample, i, r, part * t->facets->area[k]);
+    }
+}
+
+static brdf_facets facets_from(const brdf_facets *facets, int first, int n)
+{
+    brdf_facets out = {.n = n, .area = facets->area + first};
+    for (int j = 0; j < 3; j++) {
+        out.normal[j] = facets->normal[j] + first;
+        out.tangent[j] = facets->tangent[j] + first;
+        out.bitangent[j] = facets->bitangent[j] + first;
+    }
+    return out;
+}
+
+/* A chunk of facets: what is special lane by lane, the rest through the kernel. */
+static void add_chunk(lobe_run *run, int first, int n, double sum[BRDF_TILE])
+{
+    _Alignas(64) double left[CHUNK][BRDF_TILE], own[BRDF_TILE];
+    const curved_tile *t = &run->tile;
+    const double *seen = run->visible ? run->visible + (size_t)first * BRDF_TILE : NULL;
+    bool any = false;
+    for (int k = 0; k < n; k++) {
+        const uint32_t lanes =
+            run->disc ? disc_lanes(t->shape, t->facets, first + k, t->light, t->disc) : 0;
+        if (!lanes && !run->curved && !any) continue;
+        fill_left(seen ? seen + k * BRDF_TILE : NULL, own);
+        bool taken = run->curved && curved_add_near(&run->tile, first + k, own);
+        if (lanes) add_blurred(run, first + k, lanes, own);
+        taken |= lanes != 0;
+        for (int j = 0; j < k && taken && !any; j++)
+            fill_left(seen ? seen + j * BRDF_TILE : NULL, left[j]);
+        any |= taken;
+        if (any) memcpy(left[k], own, sizeof own);
+    }
+    const brdf_facets some = facets_from(t->facets, first, n);
+    brdf_material_tile(t->batch.material, &some, t->light, any ? left[0] : seen, sum);
+}
+
+static void add_lobe(lobe_run *run, double sum[BRDF_TILE])
+{
+    const int n = run->tile.facets->n;
+    if (run->curved) curved_tile_start(&run->tile);
+    for (int first = 0; first < n; first += CHUNK)
+        add_chunk(run, first, n - first < CHUNK ? n - first : CHUNK, sum);
+    batch_flush(&run->tile.batch);
+    for (int lane = 0; lane < BRDF_TILE; lane++)
+        sum[lane] += run->tile.batch.sum[lane];
+}
+
+void lobe_tile(const curved_span *curved, int band, const brdf_material *material,
+               const lobe_shape *shapes, const brdf_facets *facets, const brdf_light *light,
+               const source_disc *disc, const double *visible, double sum[BRDF_TILE])
+{
+    const curved_lobe *lobes = curved ? curved->lobes + curved->first_lobe[band] : NULL;
+    for (int k = 0; k < material->n_lobes; k++) {
+        const brdf_material one = {.n_lobes = 1, .lobes = &material->lobes[k]};
+        lobe_run run = {.curved = lobes && lobes[k].active, .disc = disc, .visible = visible};
+        if (!run.curved && !run.disc) {
+            brdf_material_tile(&one, facets, light, visible, sum);
+            continue;
+        }
+        run.tile = (curved_tile){.span = curved,
+                                 .lobe = run.curved ? &lobes[k] : NULL,
+                                 .shape = &shapes[k],
+                                 .facets = facets,
+                                 .light = light,
+                                 .disc = disc,
+                                 .batch = {.material = &one}};
+        add_lobe(&run, sum);
+    }
+}

@@ -1,0 +1,361 @@
+/* The Sun as a disc: held against brute-force quadrature over it with scalar BRDFs, which knows
+ * nothing of lobes, and against closed forms. */
+#include "shapes.h"
+
+#define SUN_Q (0.2664531 * DEG) /* rad, angular radius at 1 au (physics page, section 4) */
+
+/* A plate of 1 m^2 looking along z, of one material. */
+typedef struct bench {
+    brdf_lobe lobe;
+    brdf_material material;
+    model_material materials[1];
+    model_component components[1];
+    facet_list facets;
+    model model;
+} bench;
+
+/* A material as its name and parameters; at[k] gets the slope, if it has one. */
+typedef struct paint {
+    const char *name;
+    double params[6];
+} paint;
+
+#define NONE ((double)NAN) /* a parameter that is not given */
+
+static bench *bench_of(primitive_spec *spec, const paint *p)
+{
+    bench *b = calloc(1, sizeof *b);
+    b->lobe = (brdf_lobe){.model = brdf_model_named(p->name), .weight = 1.0};
+    ck_assert_ptr_nonnull(b->lobe.model);
+    for (int k = 0; k < b->lobe.model->n_params; k++)
+        b->lobe.params[k] = p->params[k];
+    ck_assert_int_eq(b->lobe.model->prepare(b->lobe.params, b->lobe.coef, NULL), GLINT_OK);
+    b->material = (brdf_material){1, &b->lobe};
+    b->materials[0] = (model_material){p->name, &b->material};
+    b->components[0] = (model_component){"body"};
+    shape_add(spec, 0, &b->facets);
+    ck_assert_int_eq(
+        model_compile(&b->facets, b->materials, 1, b->components, 1, 1, &b->model, NULL), GLINT_OK);
+    return b;
+}
+
+static bench *plate_of(const paint *p)
+{
+    primitive_spec spec = shape("plate");
+    SET(&spec, "size_m", 1, 1);
+    SET(&spec, "normal", 0, 0, 1);
+    SET(&spec, "tangent", 1, 0, 0);
+    shape_material(&spec, "material", 0);
+    return bench_of(&spec, p);
+}
+
+static void bench_free(bench *b)
+{
+    model_free(&b->model);
+    free(b);
+}
+
+/* What the model sees of one pair, m^2/sr; every lane must say the same. */
+static double sum_of(const bench *b, const double sun[3], const double observer[3], double q,
+                     bool limb_darkened)
+{
+    brdf_light light;
+    source_disc disc;
+    source_disc_start(&disc, limb_darkened);
+    double x[BRDF_TILE];
+    for (int k = 0; k < BRDF_TILE; k++) {
+        source_disc_set(&disc, k, q);
+        for (int j = 0; j < 3; j++)
+            light.i[j][k] = sun[j], light.r[j][k] = observer[j];
+    }
+    brdf_light_finish(&light);
+    ck_assert_int_eq(b->model.n_spans, 1);
+    model_sum(&b->model, &light, &disc, NULL, x);
+    for (int k = 1; k < BRDF_TILE; k++)
+        ck_assert_msg(x[k] == x[0], "lane %d: %.17g, lane 0: %.17g", k, x[k], x[0]);
+    return x[0];
+}
+
+/* The mean of g over the disc by brute force: a square grid of points over it, its spacing `step`
+ * in radii. */
+static double brute(const brdf_material *m, const double sun[3], const double observer[3], double q,
+                    bool limb_darkened, int n_across)
+{
+    double e1[3], e2[3], total = 0, weights = 0;
+    const double other[3] = {0.3, -0.7, 0.2}, step = 2.0 / n_across;
+    perp3(other, sun, e1);
+    cross3(sun, e1, e2);
+    for (int a = 0; a < n_across; a++)
+        for (int b = 0; b < n_across; b++) {
+            const double x = -1 + (a + 0.5) * step, y = -1 + (b + 0.5) * step, s = x * x + y * y;
+            if (s > 1) continue;
+            double i[3];
+            for (int j = 0; j < 3; j++)
+                i[j] = sun[j] + tan(q) * (x * e1[j] + y * e2[j]);
+            unit3(i, i);
+            const double weight = limb_darkened ? 1 - 0.6 * (1 - sqrt(1 - s)) : 1;
+            weights += weight;
+            total += weight * brdf_material_eval(m, i, observer);
+        }
+    return total / weights;
+}
+
+/* --- against brute force --- */
+
+/* A direction to the observer for which the mirror normal is tilted from the facet's by `tilt`, in
+ * the plane of incidence or across it. */
+static void offset_mirror(const double sun[3], double tilt, double azimuth, double observer[3])
+{
+    const double n[3] = {sin(tilt) * cos(azimuth), sin(tilt) * sin(azimuth), cos(tilt)};
+    const double c = dot3(sun, n);
+    for (int j = 0; j < 3; j++)
+        observer[j] = 2 * c * n[j] - sun[j];
+}
+
+/* Samples about the mirror direction: tilts in widths of the lobe and in radii of the disc, at
+ * incidences up to 80 deg. Only where some light is: below `least` of the overhead value the
+ * lobe is over. */
+static void check_paint(const paint *p, double width, bool limb_darkened, int n_across,
+                        double tolerance_mag)
+{
+    static const double INCIDENCE[] = {0, 30, 60, 80}; /* deg */
+    static const double WIDTHS[] = {0, 1, 2.5, 4}, RADII[] = {0.3, 0.45};
+    static const double UP[3] = {0, 0, 1};
+    bench *b = plate_of(p);
+    const double top = brute(&b->material, UP, UP, SUN_Q, limb_darkened, 200);
+    int n = 0;
+    for (int c = 0; c < 4; c++)
+        for (int o = 0; o < 12; o++) {
+            const double azimuth = 0.4, theta = INCIDENCE[c] * DEG;
+            const double tilt = o / 2 < 4 ? WIDTHS[o / 2] * width : RADII[o / 2 - 4] * SUN_Q;
+            const double sun[3] = {sin(theta) * cos(azimuth), sin(theta) * sin(azimuth),
+                                   cos(theta)};
+            double observer[3];
+            offset_mirror(sun, tilt, azimuth + (o % 2) * PI / 2, observer);
+            if (observer[2] < 0.05) continue;
+            const double want = brute(&b->material, sun, observer, SUN_Q, limb_darkened, n_across);
+            if (!(want > 1e-3 * top)) continue;
+            const double got = sum_of(b, sun, observer, SUN_Q, limb_darkened);
+            ck_assert_msg(got > 0, "%s: nothing at %g deg", p->name, INCIDENCE[c]);
+            const double off = 2.5 * log10(got / want);
+            ck_assert_msg(fabs(off) <= tolerance_mag,
+                          "%s %g: %.2e mag at incidence %g deg, tilt %g widths, azimuth %d",
+                          p->name, p->params[2], off, INCIDENCE[c], tilt / width, o % 2);
+            n++;
+        }
+    ck_assert_int_ge(n, 12);
+    bench_free(b);
+}
+
+/* Physics page, section 4: 1e-3 mag. Brute force itself is off by 2e-4 where its grid is a third of
+ * the lobe, which sets the number of its points. */
+START_TEST(test_solar_disc_blurs_gaussian_lobes_as_brute_force_does)
+{
+    static const double ALPHA[] = {1e-4, 1e-3, 3e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
+    static const char *const NAME[] = {"ward", "ward-duer", "ward-gmd"};
+    for (int k = 0; k < 9; k++) {
+        const double alpha = ALPHA[k];
+        const paint p = {NAME[k % 3], {0, 0.5, alpha, alpha, NONE, NONE}};
+        const int n = alpha < 2e-4 ? 3000 : alpha < 2e-3 ? 1000 : alpha < 0.01 ? 400 : 160;
+        check_paint(&p, alpha / sqrt(2), _i == 1, n, 1e-3);
+    }
+}
+END_TEST
+
+START_TEST(test_solar_disc_blurs_every_kind_of_lobe_as_brute_force_does)
+{
+    static const paint PAINTS[] = {
+        {"ward", {0.1, 0.4, 0.02, 0.006, NONE, NONE}},
+        {"ward-gmd", {0.0, 0.4, 0.004, 0.05, NONE, NONE}},
+        {"phong", {0, 0.5, 100}},
+        {"phong", {0.1, 0.5, 20000}},
+        {"ggx", {0, 0.5, 0.003, 0.003, 1.5, 0}},
+        {"ggx", {0, 0.5, 0.05, 0.05, 1.5, 0}},
+        {"cook-torrance", {0, 0.5, 0.01, 1.5, 0}},
+        {"cook-torrance", {0, 0.5, 0.1, 1.5, 3}},
+        {"ashikhmin-shirley", {0, 0.5, 1000, 20000}},
+        {"ashikhmin-premoze", {0.2, 0.5, 5000, 5000}},
+        {"abg", {0, 1e-4, 1e-4, 2.5}},
+        {"five-parameter", {5, 0.05, 0.1, 1, -2}},
+        {"lambert", {0.5}},
+        {"oren-nayar", {0.5, 30}},
+        {"minnaert", {0.5, 0.7}},
+        {"lommel-seeliger", {0.3}},
+        {"hapke", {0.3, 0.2, 1, 0.05}},
+    };
+    static const double WIDTH[] = {0.014, 0.035, 0.1, 0.007, 0.002, 0.03, 0.007, 0.07, 0.03,
+                                   0.014, 0.02,  0.1, 0.3,   0.3,   0.3,  0.3,   0.3};
+    const paint *p = &PAINTS[_i];
+    check_paint(p, WIDTH[_i], _i % 2, 400, 1e-3);
+}
+END_TEST
+
+/* --- closed forms --- */
+
+/* Physics page, section 4: at the peak of a Gaussian lobe, normal incidence, the mean over a disc
+ * of angular radius q is 4 a^2/q^2 (1 - exp(-q^2/(4 a^2))) of the point value; holds to q^2. */
+START_TEST(test_solar_disc_dims_peak_of_gaussian_as_closed_form)
+{
+    static const double ALPHA[] = {3e-4, 1e-3, 0.003, 0.01, 0.03, 0.1, 0.3};
+    static const double UP[3] = {0, 0, 1};
+    for (int k = 0; k < 7; k++) {
+        const double a = ALPHA[k], z = SUN_Q * SUN_Q / (4 * a * a);
+        const paint p = {"ward", {0, 0.5, a, a, NONE, NONE}};
+        bench *b = plate_of(&p);
+        const double point = 0.5 / (4 * PI * a * a);
+        assert_rel(sum_of(b, UP, UP, SUN_Q, false), point * -expm1(-z) / z, 5e-4);
+        bench_free(b);
+    }
+}
+END_TEST
+
+START_TEST(test_solar_disc_of_vanishing_radius_is_a_point)
+{
+    const paint p = {"ward", {0.1, 0.5, 0.02, 0.02, NONE, NONE}};
+    bench *b = plate_of(&p);
+    for (int k = 0; k < 50; k++) {
+        const double theta = 0.02 * k, sun[3] = {sin(theta), 0, cos(theta)};
+        const double observer[3] = {-sin(0.5), 0.02, sqrt(cos(0.5) * cos(0.5) - 4e-4)};
+        const double point = brdf_material_eval(&b->material, sun, observer);
+        assert_rel(sum_of(b, sun, observer, 1e-9, false), point, 1e-9);
+        assert_rel(sum_of(b, sun, observer, 0, false), point, 1e-13);
+    }
+    bench_free(b);
+}
+END_TEST
+
+/* A Lambert plate while the Sun's uniform disc sets: the mean of max(0, i.n). With the centre at
+ * the elevation x q, |x| <= 1 and q small, that is q/pi [sqrt(1 - x^2)(2 + x^2)/3 + x (pi/2 + asin
+ * x)]. */
+START_TEST(test_solar_disc_sets_behind_a_lambert_plate_as_closed_form)
+{
+    const paint p = {"lambert", {1}};
+    bench *b = plate_of(&p);
+    const double observer[3] = {0, sin(0.7), cos(0.7)};
+    for (int k = -9; k <= 10; k++) {
+        const double x = 0.1 * k, e = x * SUN_Q, sun[3] = {cos(e), 0, sin(e)};
+        const double mean =
+            SUN_Q / PI * (sqrt(fmax(1 - x * x, 0)) * (2 + x * x) / 3 + x * (PI / 2 + asin(x)));
+        assert_rel(sum_of(b, sun, observer, SUN_Q, false), mean * cos(0.7) / PI, 3e-4);
+    }
+    const double set[3] = {cos(1.01 * SUN_Q), 0, -sin(1.01 * SUN_Q)};
+    ck_assert(sum_of(b, set, observer, SUN_Q, false) == 0);
+    bench_free(b);
+}
+END_TEST
+
+/* --- mirrors --- */
+
+/* A mirror plate of 1.88 x 0.86 m, R 0.9, 40 deg, 1000 km, the Sun at 1 au: physics page, section 4
+ * and the numbers of its check. */
+START_TEST(test_solar_disc_in_a_mirror_is_its_image)
+{
+    primitive_spec spec = shape("plate");
+    SET(&spec, "size_m", 1.88, 0.86);
+    SET(&spec, "normal", 0, 0, 1);
+    SET(&spec, "tangent", 1, 0, 0);
+    shape_material(&spec, "material", 0);
+    const paint p = {"mirror", {0.9, NONE, NONE}};
+    bench *b = bench_of(&spec, &p);
+    const double theta = 40 * DEG, sun[3] = {sin(theta), 0, cos(theta)};
+    const double q = asin(SUN_RADIUS_M / AU_M);
+    for (int k = -12; k <= 12; k++) {
+        const double off = 0.1 * k * q * (1 - 1e-9), up = theta + 0.6 * off;
+        /* 0.6 and 0.8 of the way in and across the plane */
+        const double observer[3] = {-sin(up) * cos(0.8 * off), sin(0.8 * off),
+                                    cos(up) * cos(0.8 * off)};
+        const double image[3] = {-sun[0], 0, sun[2]};
+        const double r = tan(angle3(image, observer)) / tan(q), mu = sqrt(fmax(1 - r * r, 0));
+        const double level = 1.640626496323961e-08 * 1e12 * observer[2] / cos(theta);
+        const double uniform = sum_of(b, sun, observer, q, false);
+        const double darkened = sum_of(b, sun, observer, q, true);
+        if (r > 1) {
+            ck_assert(uniform == 0 && darkened == 0);
+            continue;
+        }
+        assert_rel(uniform, level, k ? 1e-9 : 1e-13);
+        assert_rel(darkened, level * (1 - 0.6 * (1 - mu)) / 0.8, k ? 2e-5 : 1e-13);
+    }
+    bench_free(b);
+}
+END_TEST
+
+/* Physics page, section 6: R r^2 / 4, whatever the attitude and the phase angle. */
+START_TEST(test_solar_disc_in_a_mirror_sphere_is_a_quarter_of_its_square)
+{
+    primitive_spec spec = shape("sphere");
+    SET(&spec, "radius_m", 1.5);
+    SET(&spec, "facets", 320);
+    shape_material(&spec, "material", 0);
+    const paint p = {"mirror", {0.8, NONE, NONE}};
+    bench *b = bench_of(&spec, &p);
+    for (int k = 0; k < 300; k++) {
+        double sun[3], observer[3];
+        for (int j = 0; j < 3; j++) {
+            sun[j] = sin(12.9898 * (k + 1) + 4.1 * j);
+            observer[j] = sun[j] + 2.2 * (k % 7) / 7.0 * sin(78.233 * (k + 1) + 1.7 * j);
+        }
+        unit3(sun, sun), unit3(observer, observer);
+        if (angle3(sun, observer) > 150 * DEG) continue;
+        assert_rel(sum_of(b, sun, observer, SUN_Q, k % 2), 0.8 * 1.5 * 1.5 / 4, 1e-9);
+    }
+    bench_free(b);
+}
+END_TEST
+
+/* A mirror cylinder, side only, against the integral of the flat mirror's closed form over its
+ * normals. */
+START_TEST(test_solar_disc_in_a_mirror_cylinder_is_its_integral)
+{
+    enum { N = 2000000 };
+    primitive_spec spec = shape("cylinder");
+    SET(&spec, "radius_m", 0.5);
+    SET(&spec, "length_m", 2);
+    SET(&spec, "axis", 0, 0, 1);
+    shape_material(&spec, "material", 0);
+    SET(&spec, "open", 1);
+    const paint p = {"mirror", {1, NONE, NONE}};
+    bench *b = bench_of(&spec, &p);
+    for (int c = 0; c < 6; c++) {
+        const double up = 0.3, sun[3] = {cos(up), 0, sin(up)};
+        const double down = up + (c - 2.5) * 0.35 * SUN_Q, turn = 0.7 + 0.11 * c;
+        const double observer[3] = {cos(down) * cos(turn), cos(down) * sin(turn), -sin(down)};
+        double want = 0;
+        for (int k = 0; k < N; k++) { /* normals within 0.01 rad of the bisector */
+            const double at = 0.5 * turn + 0.02 * ((k + 0.5) / N - 0.5);
+            const double n[3] = {cos(at), sin(at), 0}, cr = dot3(n, observer);
+            double image[3];
+            for (int j = 0; j < 3; j++)
+                image[j] = 2 * cr * n[j] - observer[j];
+            if (angle3(image, sun) <= SUN_Q)
+                want += cr * 0.5 * 2 * 0.02 / N / (PI * sin(SUN_Q) * sin(SUN_Q));
+        }
+        assert_rel(sum_of(b, sun, observer, SUN_Q, false), want, 0.005);
+    }
+    bench_free(b);
+}
+END_TEST
+
+int main(void)
+{
+    TCase *brute_force = tcase_create("brute force");
+    tcase_set_timeout(brute_force, 120);
+    tcase_add_loop_test(brute_force, test_solar_disc_blurs_gaussian_lobes_as_brute_force_does, 0,
+                        2);
+    tcase_add_loop_test(brute_force, test_solar_disc_blurs_every_kind_of_lobe_as_brute_force_does,
+                        0, 17);
+    Suite *suite = suite_create("solar_disc");
+    TCase *closed = tcase_create("closed forms");
+    tcase_add_test(closed, test_solar_disc_dims_peak_of_gaussian_as_closed_form);
+    tcase_add_test(closed, test_solar_disc_of_vanishing_radius_is_a_point);
+    tcase_add_test(closed, test_solar_disc_sets_behind_a_lambert_plate_as_closed_form);
+    TCase *mirrors = tcase_create("mirrors");
+    tcase_set_timeout(mirrors, 120);
+    tcase_add_test(mirrors, test_solar_disc_in_a_mirror_is_its_image);
+    tcase_add_test(mirrors, test_solar_disc_in_a_mirror_sphere_is_a_quarter_of_its_square);
+    tcase_add_test(mirrors, test_solar_disc_in_a_mirror_cylinder_is_its_integral);
+    suite_add_tcase(suite, brute_force);
+    suite_add_tcase(suite, closed);
+    suite_add_tcase(suite, mirrors);
+    return run_suite(suite);
+}
