@@ -208,8 +208,8 @@ static inline bool boxes_overlap(const box2 *a, const box2 *b)
 
 /* How points lie to the lines of a polygon: apart, when all are outside one line; covered, when
  * none is outside any. */
-LANES_CLONES static polygon_relation relate_to_lines(const point2 *points, int n,
-                                                     const polygon_lines *lines, int n_lines)
+CLONES static polygon_relation relate_to_lines(const point2 *points, int n,
+                                               const polygon_lines *lines, int n_lines)
 {
     polygon_relation relation = POLYGON_COVERED;
     for (int l = 0; l < n_lines; l++) {
@@ -362,7 +362,7 @@ void polygon_work_free(polygon_work *work)
 
 /* Which of four lines have points of a ring on their outer side; *apart is set where one has no
  * points on its inner side. */
-LANES_CLONES static void find_cutting(const point2 *points, int n, const polygon_lines *lines,
+CLONES static void find_cutting(const point2 *points, int n, const polygon_lines *lines,
                                       bool cuts[4], bool *apart)
 {
     const double4 a = lines->a, b = lines->b, c = lines->c, slack = lines->slack;

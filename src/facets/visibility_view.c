@@ -52,8 +52,8 @@ static void basis_along(const double z[3], double basis[9])
 }
 
 /* out = axis . vector for n vectors. */
-LANES_CLONES static void project(const double axis[3], const double *x, const double *y,
-                                 const double *z, int n, double *out)
+CLONES static void project(const double axis[3], const double *x, const double *y, const double *z,
+                           int n, double *out)
 {
     const double a = axis[0], b = axis[1], c = axis[2];
     for (int k = 0; k < n; k++)
@@ -260,8 +260,8 @@ typedef struct float_shaft {
     bool high_x, high_y;
 } float_shaft;
 
-LANES_CLONES static int walk(const plan_node *nodes, const view_node *boxes, const float_shaft *s,
-                             int root, int *stack, int *out)
+CLONES static int walk(const plan_node *nodes, const view_node *boxes, const float_shaft *s,
+                       int root, int *stack, int *out)
 {
     int n = 0, n_stack = 1;
     stack[0] = root;
@@ -320,7 +320,7 @@ int view_candidates(const visibility *plan, view *v, const shaft *s, int root, i
     return n;
 }
 
-LANES_CLONES shaft_relation view_relate(const shaft *s, const double (*points)[3], int n)
+CLONES shaft_relation view_relate(const shaft *s, const double (*points)[3], int n)
 {
     double lowest = INFINITY, highest = -INFINITY;
     for (int k = 0; k < n; k++) {

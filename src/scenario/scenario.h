@@ -9,7 +9,9 @@
 #include "orbit/attitude_plan.h"
 #include "orbit/earth.h"
 #include "orbit/hinge.h"
+#include "orbit/horizon.h"
 #include "orbit/orbit.h"
+#include "orbit/refraction.h"
 #include "scenario/toml.h"
 
 enum { SCENARIO_MAX_BANDS = 16 };
@@ -68,6 +70,29 @@ typedef struct scenario_orbit {
     orbit *propagator;              /* owned */
 } scenario_orbit;
 
+typedef enum observer_kind {
+    OBSERVER_SITE,      /* a place on the ground */
+    OBSERVER_SATELLITE, /* with an orbit of its own */
+    OBSERVER_DIRECTION  /* always in the same direction from the satellite */
+} observer_kind;
+
+/* Who looks. */
+typedef struct scenario_observer {
+    const char *name; /* "" where not said; borrowed from the document */
+    place where;      /* of its table */
+    observer_kind kind;
+    /* Of a site: */
+    earth_site site;
+    horizon horizon; /* owned: what is lower is not seen */
+    refraction air;
+    /* Of a satellite: */
+    scenario_orbit orbit;
+    /* Of a direction: */
+    bool in_body;        /* else in GCRS */
+    double direction[3]; /* unit, from the satellite to the observer */
+    double range_m;
+} scenario_observer;
+
 /* In the order of the words in read_scenario.c. */
 typedef enum self_shadows {
     SHADOWS_EXACT,
@@ -102,6 +127,7 @@ typedef struct expectation {
     bool by_row; /* else by t_s */
     int64_t row;
     double t_s;
+    const char *observer; /* with t_s: its name; borrowed from the document */
     const char *column;
     bool empty;                       /* the cell must be empty (from a table) */
     double value, absolute, relative; /* |got - value| <= absolute + relative |value| */
@@ -150,9 +176,8 @@ struct glint_scenario {
     double step_s;
     int64_t n_steps;
 
-    const char *site_name; /* "" where not said */
-    earth_site site;
-    double min_elevation; /* rad */
+    scenario_observer *observers; /* owned; in the order of the file */
+    int n_observers;              /* 0 only where directions are given */
 
     scenario_orbit orbit;
 
@@ -174,8 +199,12 @@ struct glint_scenario {
 
     bool light_time, aberration;
     double dut1_s;
+    eop_table *eop;       /* owned; NULL: dut1_s throughout, and no polar motion */
+    const char *eop_name; /* of its file, as written; borrowed from the document */
+    place eop_where;
 
     rows_choice rows;
+    bool moon_columns;
     double sun_elevation_max; /* rad; of a dark site */
     unsigned shares;
 
