@@ -5,6 +5,7 @@
 #include "table.h"
 
 #include <stdint.h>
+#include <time.h>
 
 static const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, z_axis[3] = {0, 0, 1};
 
@@ -677,6 +678,65 @@ START_TEST(test_visibility_slivers_add_up_to_the_floor)
 }
 END_TEST
 
+/* A floor under strips that meet edge to edge as seen from the Sun, at heights of their own, in any
+ * position: nothing is left, and rounding at the seams leaves nothing either. The middle strip
+ * taken away, a strip of the floor is left. */
+START_TEST(test_visibility_roof_of_strips_leaves_nothing)
+{
+    enum { STRIPS = 9, TRIALS = 200 };
+    uint64_t state = 5;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        const bool closed = trial % 2 == 0;
+        const double turn_rad = TWO_PI * random_number(&state);
+        const double x[3] = {cos(turn_rad), sin(turn_rad), 0}, y[3] = {-x[1], x[0], 0};
+        const double tilt = 0.5 * random_number(&state);
+        double towards[3];
+        add_scaled3(z_axis, tilt, y, towards);
+        scene *s = scene_new();
+        primitive_spec floor_spec = plate_shape(3, 1, (double[3]){0, 0, 0}, z_axis, x);
+        shape_add(&floor_spec, 0, &s->facets);
+        for (int k = 0; k < STRIPS; k++) {
+            double centre[3] = {0, 0, 1 + random_number(&state)};
+            if (!closed && k == STRIPS / 2) continue;
+            add_scaled3(centre, (k - 4) / 3.0, x, centre);
+            primitive_spec strip = plate_shape(1 / 3.0, 9, centre, z_axis, x);
+            shape_add(&strip, 0, &s->facets);
+        }
+        scene_plan(s, 1);
+        const double left = fraction_for(s, 0, towards, z_axis);
+        if (closed)
+            assert_near(left, 0.0, 0.0);
+        else /* a third of a metre of three */
+            assert_near(left, 1 / 9.0, 1e-13);
+        scene_free(s);
+    }
+}
+END_TEST
+
+/* Tens of thousands of triangles at one edge, all in one place, over a floor: the plan is made in a
+ * moment (in minutes, if each was held against each), and the floor keeps what one triangle leaves.
+ * The Sun and the observer stand overhead. */
+START_TEST(test_visibility_edge_of_very_many_facets_takes_no_time)
+{
+    enum { FACETS = 40000 };
+    scene *s = scene_new();
+    add_plate(s, 2, 2, 0, 0, 0);
+    for (int k = 0; k < FACETS; k++) { /* half of them face down */
+        const double triangle[2][3][3] = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+                                          {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}};
+        primitive_spec spec = shape("facet");
+        shape_points(&spec, triangle[k % 2], 3);
+        shape_material(&spec, "material", 0);
+        shape_add(&spec, 0, &s->facets);
+    }
+    const double from_s = (double)clock() / CLOCKS_PER_SEC;
+    scene_plan(s, 1);
+    assert_near((double)clock() / CLOCKS_PER_SEC - from_s, 0.0, 10.0);
+    assert_near(fraction_for(s, 0, z_axis, z_axis), 1 - 0.5 / 4, 1e-14);
+    scene_free(s);
+}
+END_TEST
+
 /* Directions in the planes of facets, along edges and through corners, of bodies that touch: the
  * fractions stay between 0 and 1 (look asserts it), and a step of 1e-12 off changes what shines by
  * no more than the step times the outlines. */
@@ -847,6 +907,8 @@ static Suite *visibility_suite(void)
     tcase_add_test(touching, test_visibility_plates_in_one_plane_leave_each_other_alone);
     tcase_add_test(touching, test_visibility_nested_bodies_show_the_outer_one);
     tcase_add_test(touching, test_visibility_slivers_add_up_to_the_floor);
+    tcase_add_test(touching, test_visibility_roof_of_strips_leaves_nothing);
+    tcase_add_test(touching, test_visibility_edge_of_very_many_facets_takes_no_time);
     tcase_add_test(touching, test_visibility_along_edges_is_continuous);
     tcase_add_test(touching, test_visibility_random_bodies_are_symmetric_and_continuous);
     tcase_add_test(touching, test_visibility_flap_turns_through_contact);

@@ -32,6 +32,18 @@ double polygon_area(const point2 *points, int n)
     return 0.5 * twice;
 }
 
+double polygon_perimeter(const point2 *points, int n)
+{
+    double sum = 0.0;
+    point2 before = points[n - 1];
+    for (int k = 0; k < n; k++) {
+        const point2 way = minus(points[k], before);
+        sum += sqrt(way.x * way.x + way.y * way.y);
+        before = points[k];
+    }
+    return sum;
+}
+
 box2 polygon_box(const point2 *points, int n)
 {
     box2 box = {points[0].x, points[0].y, points[0].x, points[0].y};
@@ -363,7 +375,7 @@ void polygon_work_free(polygon_work *work)
 /* Which of four lines have points of a ring on their outer side; *apart is set where one has no
  * points on its inner side. */
 CLONES static void find_cutting(const point2 *points, int n, const polygon_lines *lines,
-                                      bool cuts[4], bool *apart)
+                                bool cuts[4], bool *apart)
 {
     const double4 a = lines->a, b = lines->b, c = lines->c, slack = lines->slack;
     mask4 inside = {0}, outside = {0};

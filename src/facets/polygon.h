@@ -22,6 +22,9 @@ typedef struct box2 {
 /* Area by the shoelace formula; negative when the ring runs clockwise. n: 0 or more. */
 double polygon_area(const point2 *points, int n);
 
+/* Length of the outline; n: 1 or more. */
+double polygon_perimeter(const point2 *points, int n);
+
 /* Smallest box along the axes around n >= 1 points. */
 box2 polygon_box(const point2 *points, int n);
 
@@ -79,8 +82,8 @@ void polygon_list_drop(polygon_list *list);
 polygon_relation polygon_relate(const polygon_list *list, int k, const polygon_list *covers,
                                 int cover);
 
-/* Whether n >= 1 points are all outside the same edge of polygon k of a list: then their convex hull
- * shares no area with it. */
+/* Whether n >= 1 points are all outside the same edge of polygon k of a list: then their convex
+ * hull shares no area with it. */
 bool polygon_has_aside(const polygon_list *list, int k, const point2 *points, int n);
 
 /* Memory that polygon_uncovered_area works in; zero-initialise; grows as needed; owned arrays. */

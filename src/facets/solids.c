@@ -16,6 +16,10 @@
  * around more than once: any tolerance between rounding and 4 pi will do. */
 #define SOLID_ANGLE_TOLERANCE 1e-3
 
+/* Where more facets than this meet at an edge, none of them has a partner there: finding partners
+ * takes the square of their number. Hubs of real bodies have some tens at most. */
+enum { MOST_AT_EDGE = 64 };
+
 /* One edge of one facet. */
 typedef struct half_edge {
     int low, high; /* its vertices by number */
@@ -143,9 +147,10 @@ static int root_of(int *root, int k)
 /* Links the facets that meet at one edge. */
 static void link_edge(finder *f, const half_edge *halves, int n)
 {
+    const bool any = n <= MOST_AT_EDGE;
     for (int k = 0; k < n; k++) {
         const half_edge *own = &halves[k];
-        const int j = partner(f, halves, n, k);
+        const int j = any ? partner(f, halves, n, k) : -1;
         if (j < 0 || partner(f, halves, n, j) != k) {
             f->open_ends[own->facet]++;
             continue;

@@ -411,7 +411,18 @@ static bool trace_facet(const visibility *plan, const target *t, visibility_scra
     return polygon_list_take(&s->outline, f->n, t->near_m);
 }
 
-/* The fraction of a facet that is lit and seen; it is turned to both. */
+/* What is left of an outline when rounding alone leaves it, at most, m^2: each side of it and of
+ * what n covers share with it may be off by `near`, and that, convex within convex, has no longer
+ * an outline than it has itself. */
+static double lost_in_rounding(const polygon_list *list, int subject, int n_covers, double near_m)
+{
+    const polygon_item *item = &list->items[subject];
+    return near_m * polygon_perimeter(list->points + item->first, item->n) * (1.0 + n_covers);
+}
+
+/* The fraction of a facet that is lit and seen; it is turned to both. What is left
+ * counts where rounding cannot have left it: slivers along the seams of covers would shine in the
+ * dark. */
 static glint_status fraction_of(const visibility *plan, visibility_scratch *s,
                                 const exposed_facet *f, double *fraction, glint_error *error)
 {
@@ -436,7 +447,8 @@ static glint_status fraction_of(const visibility *plan, visibility_scratch *s,
         polygon_uncovered_area(&s->outline, 0, &s->covers, t.near_m, &s->work, &left_m2, error);
     const polygon_item *outline = &s->outline.items[0];
     const double all_m2 = polygon_area(s->outline.points + outline->first, outline->n);
-    *fraction = fmin(1.0, fmax(0.0, left_m2 / all_m2));
+    const bool any = left_m2 > lost_in_rounding(&s->outline, 0, s->covers.n, t.near_m);
+    *fraction = any ? fmin(1.0, left_m2 / all_m2) : 0.0;
     return status;
 }
 
