@@ -387,7 +387,9 @@ static outcome find_covers(const visibility *plan, const target *t, visibility_s
     if (in_fans) pass_over_fans(plan, t, s);
     s->n_whole = 0;
     s->ragged = false;
+    const int own_flat = plan->flats[t->facet->own];
     for (int k = 0; k < n; k++) {
+        if (plan->flats[s->candidates[k]] == own_flat) continue;
         if (in_fans && s->passed_over[s->candidates[k]] == s->n_searches) continue;
         const outcome found = cover_by(plan, t, s, s->candidates[k]);
         if (found != PARTLY_COVERED) return found;

@@ -66,6 +66,8 @@ struct visibility {
     bool *is_exposed;       /* owned; n_facets */
     int *rings;             /* owned; n_corners vertices: corners of the facets */
     occluder *occluders;    /* owned */
+    int *flats;             /* owned; of each occluder: those of one number lie in one plane of
+                               a group, and hide nothing of each other's facets */
     int *corners;           /* owned; n_corners vertices: corners of the occluders */
     int *beyond;            /* owned; n_corners: of a polygon, the facet beyond the edge from this
                                corner to the next; -1 where there is none, or a splinter */
