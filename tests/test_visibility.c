@@ -737,6 +737,38 @@ START_TEST(test_visibility_edge_of_very_many_facets_takes_no_time)
 }
 END_TEST
 
+/* A cube whose corner comes through the floor from below, its diagonal upright, by a height h: it
+ * cuts an equilateral triangle of (3 sqrt 3 / 2) h^2 out of it, which hides all that the tip hides,
+ * too, from directions steeper than its edges. The same where the cube may turn. */
+START_TEST(test_visibility_corner_through_the_floor_hides_its_section)
+{
+    const double lo[3] = {-1, -1, -1}, hi[3] = {0, 0, 0}, root = sqrt(0.5);
+    const double x[3] = {root, -root, 0}, z[3] = {1 / sqrt(3), 1 / sqrt(3), 1 / sqrt(3)};
+    double y[3];
+    cross3(z, x, y);
+    for (int k = 0; k < 20; k++) {
+        const double h_m = 0.025 * (k / 2 + 1); /* the cube's other corners are 0.577 m deeper */
+        scene *s = scene_new();
+        add_plate(s, 4, 4, 0, 0, 0);
+        add_box(s, 1, lo, hi);
+        visibility_component *cube = &s->components[1];
+        mat_rows(x, y, z, cube->pose.body_component);
+        cube->pose.origin_m[0] = 0.3, cube->pose.origin_m[2] = h_m;
+        cube->moves = k % 2 == 1;
+        copy3(z, cube->axis);
+        scene_plan(s, 2);
+        for (int azimuth_deg = 5; azimuth_deg < 360; azimuth_deg += 50) {
+            double sun[3], observer[3];
+            direction_deg(25, azimuth_deg, sun); /* 35.3 deg is the edges' */
+            direction_deg(15, 2 * azimuth_deg, observer);
+            const double left = 1 - 1.5 * sqrt(3) * h_m * h_m / 16;
+            assert_near(fraction_for(s, 0, sun, observer), left, 1e-13);
+        }
+        scene_free(s);
+    }
+}
+END_TEST
+
 /* Directions in the planes of facets, along edges and through corners, of bodies that touch: the
  * fractions stay between 0 and 1 (look asserts it), and a step of 1e-12 off changes what shines by
  * no more than the step times the outlines. */
@@ -909,6 +941,7 @@ static Suite *visibility_suite(void)
     tcase_add_test(touching, test_visibility_slivers_add_up_to_the_floor);
     tcase_add_test(touching, test_visibility_roof_of_strips_leaves_nothing);
     tcase_add_test(touching, test_visibility_edge_of_very_many_facets_takes_no_time);
+    tcase_add_test(touching, test_visibility_corner_through_the_floor_hides_its_section);
     tcase_add_test(touching, test_visibility_along_edges_is_continuous);
     tcase_add_test(touching, test_visibility_random_bodies_are_symmetric_and_continuous);
     tcase_add_test(touching, test_visibility_flap_turns_through_contact);

@@ -143,6 +143,8 @@ START_TEST(test_pieces_areas_are_the_fractions)
 {
     scene *s = scene_new();
     add_satellite(s);
+    s->components[1].moves = true;
+    copy3(z_axis, s->components[1].axis);
     scene_plan(s);
     visibility_scratch *scratch;
     ck_assert_int_eq(visibility_scratch_make(s->plan, &scratch, NULL), GLINT_OK);

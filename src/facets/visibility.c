@@ -215,13 +215,32 @@ static int add_crossings(const visibility *plan, const target *t, visibility_scr
     return n;
 }
 
-/* Whether a body may meet the facet itself, not only its plane. */
-static bool may_pierce(const visibility *plan, const exposed_facet *f, int k)
+/* Whether a body may meet the facet itself, not only its plane, and what it cuts out of it is not
+ * known from the plan: it moves to the facet. */
+static bool may_cut_anew(const visibility *plan, const exposed_facet *f, int k)
 {
-    if (plan->component_root[plan->occluders[k].component] != f->root) return true;
-    for (int j = f->first_piercing; j < f->first_piercing + f->n_piercing; j++)
-        if (plan->piercing[j] == k) return true;
-    return false;
+    return plan->component_root[plan->occluders[k].component] != f->root;
+}
+
+/* Takes in what bodies that go through the facet cut out of it: that is hidden from both sides. */
+static outcome cover_by_sections(const visibility *plan, const target *t, visibility_scratch *s)
+{
+    const exposed_facet *f = t->facet;
+    const double *axes = t->view->axes[f->component], *shift_m = t->view->shift_m[f->component];
+    for (int k = f->first_section; k < f->first_section + f->n_sections; k++) {
+        const section *own = &plan->sections[k];
+        if (own->n == 0) continue;
+        point2 *room = polygon_list_room(&s->covers, own->n);
+        if (!room) return NO_MEMORY;
+        for (int c = 0; c < own->n; c++) {
+            double p[3];
+            mat_vec(axes, plan->section_points[own->first + c], p);
+            room[c] = in_plane(t, p[0] + shift_m[0], p[1] + shift_m[1]);
+        }
+        const outcome found = take_cover(t, s, own->n);
+        if (found != PARTLY_COVERED) return found;
+    }
+    return PARTLY_COVERED;
 }
 
 /* Where the outline of a body is not known: the hull of its corners before the facet's plane and of
@@ -250,7 +269,7 @@ static outcome cover_by_cut_body(const visibility *plan, const target *t, visibi
         const outcome found = cover_by_part(t, s, ring, outline.n);
         if (found != PARTLY_COVERED) return found;
     }
-    if (!may_pierce(plan, t->facet, k)) return PARTLY_COVERED;
+    if (!may_cut_anew(plan, t->facet, k)) return PARTLY_COVERED;
     if (find_heights(plan, t, s, o) <= t->facet->contact_m) return PARTLY_COVERED;
     return cover_by_points(t, s, add_crossings(plan, t, s, o, 0));
 }
@@ -434,7 +453,8 @@ static glint_status fraction_of(const visibility *plan, visibility_scratch *s,
     polygon_list_clear(&s->covers);
     set_target(plan, s, better, f, &t);
     if (!trace_facet(plan, &t, s)) return GLINT_OK;
-    outcome found = find_covers(plan, &t, s);
+    outcome found = cover_by_sections(plan, &t, s);
+    if (found == PARTLY_COVERED) found = find_covers(plan, &t, s);
     if (found == PARTLY_COVERED) {
         set_target(plan, s, 1 - better, f, &t);
         carry_over(&s->views[better], &t);

@@ -2,6 +2,7 @@
 #include "facets/visibility_plan.h"
 
 #include "base/vec.h"
+#include "facets/polygon.h"
 #include "facets/rays.h"
 #include "facets/visibility_fans.h"
 #include "facets/visibility_rays.h"
@@ -729,22 +730,109 @@ static glint_status find_flats(const planner *p, glint_error *error)
 
 /* --- bodies that go through facets --- */
 
-/* A growing list of bodies. */
-typedef struct body_list {
-    int *items;
-    int n, capacity;
-} body_list;
+/* Sections as they are found, and memory to find them in. */
+typedef struct section_list {
+    section *items;      /* owned; become the plan's */
+    double (*points)[3]; /* owned; become the plan's */
+    int n, n_points, capacity, point_capacity;
+    point2 *corners, *hull; /* owned */
+    double *heights_m;      /* owned; of each vertex */
+    polygon_list outlines;
+} section_list;
 
-static bool append_body(body_list *list, int body)
+static bool make_room(section_list *list, int n_points)
 {
     if (list->n == list->capacity) {
         const int capacity = 2 * list->capacity + 64;
-        int *items = realloc(list->items, (size_t)capacity * sizeof *items);
+        section *items = realloc(list->items, (size_t)capacity * sizeof *items);
         if (!items) return false;
         list->items = items;
         list->capacity = capacity;
     }
-    list->items[list->n++] = body;
+    if (list->n_points + n_points > list->point_capacity) {
+        const int capacity = 2 * list->point_capacity + n_points + 64;
+        double(*points)[3] = realloc(list->points, (size_t)capacity * sizeof *points);
+        if (!points) return false;
+        list->points = points;
+        list->point_capacity = capacity;
+    }
+    return true;
+}
+
+/* A facet's plane, with axes in it from its first corner. */
+typedef struct sheet {
+    const plane *own;
+    const double *from_m;
+    double x[3], y[3];
+} sheet;
+
+static point2 in_sheet(const sheet *s, const double at_m[3])
+{
+    double d[3];
+    sub3(at_m, s->from_m, d);
+    return (point2){dot3(s->x, d), dot3(s->y, d)};
+}
+
+/* The hull of a body's corners in a plane, and of where its edges go through it, in list->hull;
+ * none where the body does not rise over the plane. A corner nearer than rounding may count to
+ * either side in a view: here it lies in the plane, so that what it bounds is not lost. */
+static int cut_body(const planner *p, const sheet *s, const occluder *o, section_list *list)
+{
+    const double near_m = 4.0 * p->plan->near_m;
+    double highest_m = -INFINITY;
+    int n = 0;
+    for (int c = o->first; c < o->first + o->n; c++) {
+        const int v = p->plan->corners[c];
+        const double height_m = dot3(s->own->normal, p->vertices[v]) - s->own->offset_m;
+        list->heights_m[v] = height_m;
+        highest_m = fmax(highest_m, height_m);
+        if (fabs(height_m) <= near_m) list->corners[n++] = in_sheet(s, p->vertices[v]);
+    }
+    if (highest_m <= s->own->contact_m) return 0;
+    for (int e = o->first_edge; e < o->first_edge + o->n_edges; e++) {
+        const solid_edge *edge = &p->solids.edges[e];
+        const double from_m = list->heights_m[edge->from], to_m = list->heights_m[edge->to];
+        double way[3], at_m[3];
+        if (!(fmax(from_m, to_m) > near_m && fmin(from_m, to_m) < -near_m)) continue;
+        sub3(p->vertices[edge->to], p->vertices[edge->from], way);
+        add_scaled3(p->vertices[edge->from], from_m / (from_m - to_m), way, at_m);
+        list->corners[n++] = in_sheet(s, at_m);
+    }
+    return n < 3 ? 0 : polygon_hull(list->corners, n, list->hull);
+}
+
+/* Whether the hull in list->hull may share area with the facet. */
+static bool meets_outline(const planner *p, const sheet *s, const exposed_facet *f, int n,
+                          section_list *list)
+{
+    polygon_list_clear(&list->outlines); /* it has room */
+    for (int k = 0; k < f->n; k++)
+        list->outlines.points[k] = in_sheet(s, p->vertices[p->solids.corners[f->first + k]]);
+    return polygon_list_take(&list->outlines, f->n, p->plan->near_m) &&
+           !polygon_has_aside(&list->outlines, 0, list->hull, n);
+}
+
+/* Appends the section of a body by a facet's plane. */
+static bool add_section(const planner *p, const exposed_facet *f, int body, section_list *list)
+{
+    const occluder *o = &p->plan->occluders[body];
+    const int *ring = p->solids.corners + f->first;
+    const visibility_pose *pose = &p->components[f->component].pose;
+    sheet s = {.own = &p->planes[f->facet], .from_m = p->vertices[ring[0]]};
+    sub3(p->vertices[ring[1]], s.from_m, s.x);
+    unit3(s.x, s.x);
+    cross3(s.own->normal, s.x, s.y);
+    int n = cut_body(p, &s, o, list);
+    if (n > 0 && !meets_outline(p, &s, f, n, list)) n = 0;
+    if (!make_room(list, n)) return false;
+    list->items[list->n++] = (section){body, list->n_points, n};
+    for (int k = 0; k < n; k++) {
+        double at_m[3], *out = list->points[list->n_points++];
+        add_scaled3(s.from_m, list->hull[k].x, s.x, at_m);
+        add_scaled3(at_m, list->hull[k].y, s.y, at_m);
+        sub3(at_m, pose->origin_m, at_m);
+        mat_tvec(pose->body_component, at_m, out);
+    }
     return true;
 }
 
@@ -804,7 +892,7 @@ static bool may_pierce(const planner *p, const exposed_facet *f, const occluder 
 
 /* Appends the bodies below a node that may go through a facet; box: the facet's. */
 static bool list_piercing(const planner *p, const exposed_facet *f, const double box[6], int k,
-                          body_list *list)
+                          section_list *list)
 {
     const visibility *plan = p->plan;
     const plan_node *node = &plan->nodes[k];
@@ -816,25 +904,35 @@ static bool list_piercing(const planner *p, const exposed_facet *f, const double
             ok = list_piercing(p, f, box, child, list);
         else if (plan->occluders[child].facet < 0 && child != f->own &&
                  may_pierce(p, f, &plan->occluders[child]))
-            ok = append_body(list, child);
+            ok = add_section(p, f, child, list);
     }
     return ok;
 }
 
-static glint_status find_piercing(const planner *p, glint_error *error)
+static glint_status find_sections(const planner *p, glint_error *error)
 {
     visibility *plan = p->plan;
-    body_list list = {0};
-    bool ok = true;
+    section_list list = {0};
+    const size_t most = (size_t)plan->most_corners + (size_t)plan->most_edges;
+    list.corners = malloc(most * sizeof *list.corners);
+    list.hull = malloc((most + 1) * sizeof *list.hull);
+    list.heights_m = malloc((size_t)plan->n_vertices * sizeof *list.heights_m);
+    bool ok = list.corners && list.hull && list.heights_m &&
+              polygon_list_room(&list.outlines, plan->most_corners);
     for (int k = 0; k < plan->n_exposed && ok; k++) {
         exposed_facet *f = &plan->exposed[k];
         double box[6];
         box_of_vertices(p, p->solids.corners + f->first, f->n, box);
-        f->first_piercing = list.n;
+        f->first_section = list.n;
         ok = list_piercing(p, f, box, plan->roots[f->root].node, &list);
-        f->n_piercing = list.n - f->first_piercing;
+        f->n_sections = list.n - f->first_section;
     }
-    plan->piercing = list.items;
+    plan->sections = list.items;
+    plan->section_points = list.points;
+    free(list.corners);
+    free(list.hull);
+    free(list.heights_m);
+    polygon_list_free(&list.outlines);
     for (int c = 0; c < plan->n_components; c++)
         for (int root = 0; root < plan->n_roots; root++)
             if (p->node_group[plan->roots[root].node] == p->group[c])
@@ -973,7 +1071,7 @@ static glint_status make_plan(planner *p, glint_error *error)
     if (!status) status = find_exposed(p, error);
     if (!status) status = list_exposed(p, error);
     if (!status) status = find_flats(p, error);
-    if (!status) status = find_piercing(p, error);
+    if (!status) status = find_sections(p, error);
     if (!status) status = renumber(p, error);
     return status;
 }
@@ -1047,7 +1145,8 @@ void visibility_free(visibility *plan)
     free(plan->beyond);
     free(plan->edges);
     free(plan->component_root);
-    free(plan->piercing);
+    free(plan->sections);
+    free(plan->section_points);
     free(plan->first_blade);
     free(plan->blades);
     free(plan->nodes);

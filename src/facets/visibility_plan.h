@@ -22,14 +22,19 @@ typedef struct occluder {
 /* A facet that something can come before at some time. Component frame. */
 typedef struct exposed_facet {
     int facet, component;
-    int root;                   /* of the tree that its group has */
-    int own;                    /* the occluder that it is part of */
-    int first, n;               /* its corners, in plan.rings */
-    double normal[3], offset_m; /* unit; normal . point of the plane */
-    double contact_m;           /* what rises no higher over the plane lies in it */
-    int first_piercing,
-        n_piercing; /* in plan.piercing: bodies of its group that may go through it */
+    int root;                      /* of the tree that its group has */
+    int own;                       /* the occluder that it is part of */
+    int first, n;                  /* its corners, in plan.rings */
+    double normal[3], offset_m;    /* unit; normal . point of the plane */
+    double contact_m;              /* what rises no higher over the plane lies in it */
+    int first_section, n_sections; /* in plan.sections: bodies that may go through it */
 } exposed_facet;
+
+/* What a facet's plane cuts out of a body of its group: hidden from all directions. */
+typedef struct section {
+    int body;     /* the occluder */
+    int first, n; /* in plan.section_points; n: 0 where it shares nothing with the facet */
+} section;
 
 /* A facet of those around a vertex that form a closed fan (visibility_fans.h). */
 typedef struct fan_blade {
@@ -73,16 +78,18 @@ struct visibility {
                                corner to the next; -1 where there is none, or a splinter */
     solid_edge *edges;      /* owned; of the bodies */
     int *component_root;    /* owned; of each component: the tree of its group */
-    int *piercing;          /* owned; bodies that exposed facets may meet */
-    int *first_blade;       /* owned; n_vertices + 1 */
-    fan_blade *blades;      /* owned; those of a vertex side by side; none where there is no fan */
-    plan_node *nodes;       /* owned */
-    plan_root *roots;       /* owned */
-    double size_m;          /* greatest distance from the body's origin */
-    double near_m;          /* rounding error of coordinates, for polygon.h */
-    int most_corners;       /* of an occluder or a facet */
-    int most_edges;         /* of a body */
-    struct ray_plan *rays;  /* owned; NULL: fractions are exact */
+    section *sections;      /* owned; of exposed facets */
+    double (*section_points)[3]; /* owned; m, frame of the facet's component; anticlockwise as seen
+                                    from where its normal points to */
+    int *first_blade;            /* owned; n_vertices + 1 */
+    fan_blade *blades;     /* owned; those of a vertex side by side; none where there is no fan */
+    plan_node *nodes;      /* owned */
+    plan_root *roots;      /* owned */
+    double size_m;         /* greatest distance from the body's origin */
+    double near_m;         /* rounding error of coordinates, for polygon.h */
+    int most_corners;      /* of an occluder or a facet */
+    int most_edges;        /* of a body */
+    struct ray_plan *rays; /* owned; NULL: fractions are exact */
 };
 
 #endif
