@@ -11,6 +11,7 @@ enum { CHUNK = 16 };
 typedef struct lobe_run {
     curved_tile tile;
     bool curved, disc; /* what must be looked for */
+    disc_queue queues[DISC_RULES];
     const double *visible;
 } lobe_run;
 
@@ -29,18 +30,19 @@ static void frame_of(const brdf_facets *facets, int k, double frame[9])
     }
 }
 
-/* Takes the mean over the disc for these lanes of facet k, and takes them out of `left`. */
-static void add_blurred(lobe_run *run, int k, uint32_t lanes, double left[BRDF_TILE])
+/* Takes the mean over the disc for the lanes of facet k that have a rule, and takes them out of
+ * `left`. */
+static void add_blurred(lobe_run *run, int k, const double rules[BRDF_TILE], double left[BRDF_TILE])
 {
     curved_tile *t = &run->tile;
     double frame[9];
     frame_of(t->facets, k, frame);
     for (int lane = 0; lane < BRDF_TILE; lane++) {
-        if (!(lanes >> lane & 1)) continue;
+        const int rule = (int)rules[lane];
+        if (rule == DISC_CENTRE) continue;
         const double part = left[lane];
         left[lane] = 0.0;
         if (!(part > 0.0)) continue;
-        const disc_sample sample = {.shape = t->shape, .disc = t->disc, .lane = lane};
         double i[3], r[3];
         const double light_i[3] = {t->light->i[0][lane], t->light->i[1][lane],
                                    t->light->i[2][lane]};
@@ -48,7 +50,14 @@ static void add_blurred(lobe_run *run, int k, uint32_t lanes, double left[BRDF_T
                                    t->light->r[2][lane]};
         mat_vec(frame, light_i, i);
         mat_vec(frame, light_r, r);
-        disc_push(&t->batch, &sample, i, r, part * t->facets->area[k]);
+        const double area_m2 = part * t->facets->area[k];
+        if (rule < DISC_RULES) {
+            disc_queue_push(&run->queues[rule], t->batch.material, &t->disc->rules[rule],
+                            t->disc->scale[lane], lane, i, r, area_m2);
+            continue;
+        }
+        const disc_sample sample = {.shape = t->shape, .disc = t->disc, .lane = lane};
+        disc_push(&t->batch, &sample, i, r, area_m2);
     }
 }
 
@@ -71,13 +80,14 @@ static void add_chunk(lobe_run *run, int first, int n, double sum[BRDF_TILE])
     const double *seen = run->visible ? run->visible + (size_t)first * BRDF_TILE : NULL;
     bool any = false;
     for (int k = 0; k < n; k++) {
-        const uint32_t lanes =
-            run->disc ? disc_lanes(t->shape, t->facets, first + k, t->light, t->disc) : 0;
-        if (!lanes && !run->curved && !any) continue;
+        _Alignas(64) double rules[BRDF_TILE];
+        const bool blurred =
+            run->disc && disc_rules_of(t->shape, t->facets, first + k, t->light, t->disc, rules);
+        if (!blurred && !run->curved && !any) continue;
         fill_left(seen ? seen + k * BRDF_TILE : NULL, own);
         bool taken = run->curved && curved_add_near(&run->tile, first + k, own);
-        if (lanes) add_blurred(run, first + k, lanes, own);
-        taken |= lanes != 0;
+        if (blurred) add_blurred(run, first + k, rules, own);
+        taken |= blurred;
         for (int j = 0; j < k && taken && !any; j++)
             fill_left(seen ? seen + j * BRDF_TILE : NULL, left[j]);
         any |= taken;
@@ -96,6 +106,12 @@ static void add_lobe(lobe_run *run, double sum[BRDF_TILE])
     batch_flush(&run->tile.batch);
     for (int lane = 0; lane < BRDF_TILE; lane++)
         sum[lane] += run->tile.batch.sum[lane];
+    for (int k = 0; run->disc && k < DISC_RULES; k++) {
+        disc_queue *q = &run->queues[k];
+        disc_queue_flush(q, run->tile.batch.material, &run->tile.disc->rules[k]);
+        for (int lane = 0; lane < BRDF_TILE; lane++)
+            sum[lane] += q->sum[lane];
+    }
 }
 
 void lobe_tile(const curved_span *curved, int band, const brdf_material *material,
