@@ -2,6 +2,7 @@
 
 #include "base/vec.h"
 #include "facets/curved_parts.h"
+#include "facets/spread.h"
 
 /* Facets that are handed to the kernel together. Their number is fixed, so that a lane's sum is the
  * same whatever the other lanes are. */
@@ -12,6 +13,8 @@ typedef struct lobe_run {
     curved_tile tile;
     bool curved, disc; /* what must be looked for */
     disc_queue queues[DISC_RULES];
+    spread sources, bisectors;
+    double widest_disc, cosine2; /* sine of the radius; of the tilt past which lobes are over */
     const double *visible;
 } lobe_run;
 
@@ -72,6 +75,35 @@ static brdf_facets facets_from(const brdf_facets *facets, int first, int n)
     return out;
 }
 
+/* Looks how far the directions of the tile are apart, and how far from the bisector a normal may be
+ * for the disc to be felt. */
+static void look_at_disc(lobe_run *run)
+{
+    const curved_tile *t = &run->tile;
+    const lobe_shape *shape = t->shape;
+    const double widest = shape->specular ? 1.0 : fmax(shape->width[0], shape->width[1]);
+    double slope = 0.0;
+    run->sources = spread_of(t->light->i);
+    run->bisectors = spread_of(t->light->h);
+    for (int k = 0; k < BRDF_TILE; k++) {
+        const double size = 1.5 * t->disc->scale[k] / fmax(t->light->hlen[k], 1e-3);
+        slope = fmax(slope, 2.0 * shape->end * widest / t->light->hlen[k] + size);
+        run->widest_disc = fmax(run->widest_disc, t->disc->scale[k]);
+    }
+    run->cosine2 = shape->surge || !(slope < 1e3) ? 0.0 : 1.0 / (1.0 + slope * slope);
+}
+
+/* False where the middle of the disc will do for a facet in all lanes, as far as that is seen at
+ * once. */
+static bool may_feel_disc(const lobe_run *run, int k)
+{
+    const brdf_facets *f = run->tile.facets;
+    const double n[3] = {f->normal[0][k], f->normal[1][k], f->normal[2][k]};
+    if (!spread_is_off_plane(&run->sources, n, run->widest_disc)) return true;
+    return dot3(run->sources.middle, n) > 0.0 &&
+           (run->cosine2 == 0.0 || spread_can_be_near(&run->bisectors, n, run->cosine2));
+}
+
 /* A chunk of facets: what is special lane by lane, the rest through the kernel. */
 static void add_chunk(lobe_run *run, int first, int n, double sum[BRDF_TILE])
 {
@@ -82,7 +114,8 @@ static void add_chunk(lobe_run *run, int first, int n, double sum[BRDF_TILE])
     for (int k = 0; k < n; k++) {
         _Alignas(64) double rules[BRDF_TILE];
         const bool blurred =
-            run->disc && disc_rules_of(t->shape, t->facets, first + k, t->light, t->disc, rules);
+            run->disc && may_feel_disc(run, first + k) &&
+            disc_rules_of(t->shape, t->facets, first + k, t->light, t->disc, rules);
         if (!blurred && !run->curved && !any) continue;
         fill_left(seen ? seen + k * BRDF_TILE : NULL, own);
         bool taken = run->curved && curved_add_near(&run->tile, first + k, own);
@@ -101,6 +134,7 @@ static void add_lobe(lobe_run *run, double sum[BRDF_TILE])
 {
     const int n = run->tile.facets->n;
     if (run->curved) curved_tile_start(&run->tile);
+    if (run->disc) look_at_disc(run);
     for (int first = 0; first < n; first += CHUNK)
         add_chunk(run, first, n - first < CHUNK ? n - first : CHUNK, sum);
     batch_flush(&run->tile.batch);
