@@ -295,6 +295,8 @@ const glint_pass *glint_passes_get(const glint_passes *passes, size_t k);
 /* Name of the band of the magnitudes, and of the satellite; "" where not said. Borrowed. */
 const char *glint_passes_band(const glint_passes *passes);
 const char *glint_passes_satellite(const glint_passes *passes);
+/* True when a path names a file that the scenario was read from: nothing should be written there. */
+bool glint_passes_reads(const glint_passes *passes, const char *path);
 /* "rise", "culmination", "set", "umbra-end", ...; NULL for no such kind. */
 const char *glint_event_name(glint_event_kind kind);
 /* The nearest of the 16 points of the compass, "NNE". azimuth: rad, finite. */
@@ -308,7 +310,7 @@ typedef enum glint_format {
 } glint_format;
 
 /* Writes the passes of n scenarios merged in order of time. path: as of glint_table_write. Errors:
- * GLINT_OUTPUT, GLINT_INTERNAL. */
+ * GLINT_OUTPUT, also where a scenario was read from that file; GLINT_INTERNAL. */
 glint_status glint_passes_write(const glint_passes *const *passes, size_t n, glint_format format,
                                 const char *path, glint_error *error);
 
@@ -366,8 +368,10 @@ bool glint_ephemeris_value(const glint_ephemeris *ephemeris, const glint_ephemer
 /* What the header of its table says: fact k from 0; false past the end. Texts borrowed. */
 bool glint_ephemeris_fact(const glint_ephemeris *ephemeris, size_t k, const char **key,
                           const char **value);
+/* True when a path names a file that the scenario was read from: nothing should be written there. */
+bool glint_ephemeris_reads(const glint_ephemeris *ephemeris, const char *path);
 /* Writes all of it. path, progress: as of glint_table_write. Errors: those of glint_ephemeris_next;
- * GLINT_OUTPUT. */
+ * GLINT_OUTPUT, also where the scenario was read from that file. */
 glint_status glint_ephemeris_write(glint_ephemeris *ephemeris, glint_format format,
                                    const char *path, glint_progress *progress, void *context,
                                    glint_error *error);

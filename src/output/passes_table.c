@@ -304,6 +304,8 @@ glint_status glint_passes_write(const glint_passes *const *passes, size_t n, gli
                                 const char *path, glint_error *error)
 {
     size_t n_list;
+    for (size_t k = 0; path && k < n; k++)
+        if (glint_passes_reads(passes[k], path)) return out_file_is_input(path, error);
     listed_pass *list = merge(passes, n, &n_list);
     if (!list) return error_no_memory(error);
     text t = {0};
