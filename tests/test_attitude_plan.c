@@ -56,7 +56,7 @@ static attitude_plan plan_of(attitude before, attitude after, double from_s, dou
 static void settle(attitude_plan *plan)
 {
     const moment m = {.t_s = plan->legs[1].from_s};
-    ck_assert_int_eq(attitude_plan_settle(plan, 1, &m, NULL), GLINT_OK);
+    ck_assert_int_eq(attitude_plan_settle(plan, 1, &m, 1, NULL), GLINT_OK);
 }
 
 static void axes_at(const attitude_plan *plan, double t_s, double body_gcrs[9])
@@ -217,13 +217,22 @@ START_TEST(test_attitude_plan_reads_times_and_slews)
     /* at most half a turn */
     ck_assert_double_gt(s->attitude.legs[2].slew_s, 0);
     ck_assert_double_le(s->attitude.legs[2].slew_s, 2);
-    ck_assert(s->attitude.legs[1].has_start_way);
+    ck_assert_int_eq(s->attitude.legs[1].n_starts, 1);
     ck_assert(s->attitude.legs[2].law.has_offset);
     glint_scenario_free(s);
     /* from rsw to nadir the turn is by 120 deg about a diagonal of the orbit's axes */
     s = read_with(SOUND, PART_ATTITUDE,
                   "[[attitude]]\nlaw = \"rsw\"\n"
                   "[[attitude]]\nfrom = 10\nslew_rate_deg_s = 60\nlaw = \"nadir\"\n");
+    assert_near(s->attitude.legs[1].slew_s, 2, 1e-9);
+    glint_scenario_free(s);
+    /* also where it begins after the last row: passes are sought to the end */
+    const char *parts[N_PARTS];
+    memcpy(parts, SOUND, sizeof parts);
+    parts[PART_TIME] = "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 60\nstep_s = 45\n";
+    s = read_with(parts, PART_ATTITUDE,
+                  "[[attitude]]\nlaw = \"rsw\"\n"
+                  "[[attitude]]\nfrom = 50\nslew_rate_deg_s = 60\nlaw = \"nadir\"\n");
     assert_near(s->attitude.legs[1].slew_s, 2, 1e-9);
     glint_scenario_free(s);
 }

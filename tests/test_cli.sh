@@ -218,6 +218,41 @@ has "$err" "--set '#=1': there is no key; expected key=value"
 t 'two overrides' 0 run plate.toml --set 'photometry.bands=["R"]' --set geometry.range_km=2000
 has "$out" mag_R,
 lacks "$out" mag_V,
+# Nothing is written over a file that the scenario is read from, whatever kind of file that is.
+mkdir inputs
+cp "$source/scenarios/iss.tle" inputs/sets.tle
+printf 'azimuth_deg,elevation_deg\n0,0\n90,5\n' >inputs/mask.csv
+printf 't_s,qw,qx,qy,qz\n-10,1,0,0,0\n100,0.8,0,0,0.6\n' >inputs/turn.csv
+printf 't_s,angle_deg\n-10,0\n100,40\n' >inputs/hinge.csv
+cp "$source/tests/data/orbit/eop_finals.txt" inputs/eop.txt
+cp "$source/scenarios/known/mesh-cube.obj" inputs/cube.obj
+cat >inputs/all.toml <<'END'
+time = { start = 2025-07-25T20:00:00Z, duration_s = 60, step_s = 30 }
+observer = { latitude_deg = 48, longitude_deg = 16, horizon = "mask.csv" }
+orbit = { tle = "sets.tle" }
+attitude = { law = "table", file = "turn.csv" }
+satellite = { model = "model.toml" }
+END
+cat >inputs/model.toml <<'END'
+materials.white = { brdf = "lambert", rho = 0.5 }
+[[component]]
+name = "body"
+hinge = { origin_m = [0, 0, 0], axis = [0, 0, 1], table = "hinge.csv" }
+mesh = [{ file = "cube.obj", material = "white" }]
+END
+cp -r inputs kept
+for file in all.toml model.toml sets.tle mask.csv turn.csv hinge.csv cube.obj; do
+    for command in run passes ephemeris; do
+        t "$command over $file" 3 $command -q inputs/all.toml -o inputs/$file
+        has "$err" "inputs/$file: error: the scenario is read from this file"
+        holds "$file as it was" cmp -s kept/$file inputs/$file
+    done
+done
+t 'a run over its Earth orientation' 3 ephemeris -q inputs/all.toml -o inputs/eop.txt \
+    --set time.start=2016-04-25T20:00:00Z --set 'corrections={eop="inputs/eop.txt"}' \
+    --set 'orbit={circular={geostationary_longitude_deg=10}}'
+has "$err" "inputs/eop.txt: error: the scenario is read from this file"
+t 'a run over its picture' 2 run plate.toml -o same.svg --plot same.svg
 t 'an absent scenario' 1 run absent.toml
 empty "$out"
 has "$err" absent.toml 'No such file'

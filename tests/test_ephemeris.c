@@ -187,6 +187,45 @@ START_TEST(test_ephemeris_follows_sequences_and_tables)
 }
 END_TEST
 
+/* Laws that look at the observer turn the satellite otherwise for each of several: at 1 deg/s from
+ * the axes of GCRS, about their z, by 30 deg to one observer and by 120 deg back to the other. */
+START_TEST(test_ephemeris_slew_to_each_of_several_observers_is_its_own)
+{
+    static const char TEXT[] =
+        "[time]\nstart = 2024-01-01T12:00:00Z\nduration_s = 160\nstep_s = 20\n"
+        "[[observer]]\nname = \"30\"\n"
+        "direction = { frame = \"gcrs\", vector = [0.8660254037844387, 0.5, 0] }\n"
+        "[[observer]]\nname = \"-120\"\n"
+        "direction = { frame = \"gcrs\", vector = [-0.5, -0.8660254037844387, 0] }\n"
+        "[orbit]\ncircular = { geostationary_longitude_deg = 10 }\n"
+        "[[attitude]]\nlaw = \"inertial\"\nquaternion_wxyz = [1, 0, 0, 0]\n"
+        "[[attitude]]\nfrom = 10\nslew_rate_deg_s = 1\nlaw = \"point\"\naxis = [1, 0, 0]\n"
+        "to = \"observer\"\nsecond_axis = [0, 0, 1]\nsecond_to = \"north\"\n"
+        "[corrections]\nlight_time = false\n";
+    static const double WHOLE_DEG[] = {30, -120};
+    glint_scenario *s;
+    ck_assert_int_eq(glint_scenario_read_orbit(write_file("slew.toml", TEXT), NULL, 0, &s, NULL),
+                     GLINT_OK);
+    glint_ephemeris *e;
+    const glint_ephemeris_row *rows;
+    size_t n, all = 0;
+    ck_assert_int_eq(glint_ephemeris_open(s, 1, &e, NULL), GLINT_OK);
+    while (glint_ephemeris_next(e, &rows, &n, NULL) == GLINT_OK && n > 0) {
+        for (size_t k = 0; k < n; k++, all++) {
+            const double whole = WHOLE_DEG[rows[k].observer];
+            const double turned_deg = fmin(fmax(rows[k].t_s - 10, 0), fabs(whole));
+            const double half = copysign(0.5 * turned_deg * DEG, whole);
+            const double *q = rows[k].quaternion_wxyz, sign = q[0] < 0 ? -1 : 1;
+            assert_near(sign * q[0], cos(half), 1e-12);
+            assert_near(sign * q[3], sin(half), 1e-12);
+        }
+    }
+    ck_assert_uint_eq(all, 18);
+    glint_ephemeris_close(e);
+    glint_scenario_free(s);
+}
+END_TEST
+
 /* ------------------------------------------------------------ what must hold */
 
 /* Reads a scenario and holds it up for `check`, row by row, with the row before. */
@@ -435,6 +474,7 @@ int main(void)
     tcase_add_test(tc, test_ephemeris_agrees_with_another_program);
     tcase_add_test(tc, test_ephemeris_turns_body_axes_into_gcrs);
     tcase_add_test(tc, test_ephemeris_follows_sequences_and_tables);
+    tcase_add_test(tc, test_ephemeris_slew_to_each_of_several_observers_is_its_own);
     tcase_add_test(tc, test_ephemeris_rates_are_differences);
     tcase_add_test(tc, test_ephemeris_angles_hold_together);
     tcase_add_test(tc, test_ephemeris_beta_is_the_declination_over_the_equator);

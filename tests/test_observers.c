@@ -822,6 +822,32 @@ START_TEST(test_observers_hash_knows_the_mask)
 }
 END_TEST
 
+/* So is the time scale of a table of positions, which shifts all its records alike. */
+START_TEST(test_observers_hash_knows_when_positions_hold)
+{
+    static const char TEXT[] = "CCSDS_OEM_VERS = 2.0\nCREATION_DATE = 2025-07-24T00:00:00\n"
+                               "ORIGINATOR = T\nMETA_START\nOBJECT_NAME = A\n"
+                               "OBJECT_ID = 2025-001A\nCENTER_NAME = EARTH\nREF_FRAME = GCRF\n"
+                               "TIME_SYSTEM = %s\nSTART_TIME = 2025-07-25T20:30:00\n"
+                               "STOP_TIME = 2025-07-25T20:50:00\nINTERPOLATION = LINEAR\n"
+                               "META_STOP\n2025-07-25T20:30:00 7000 0 0 0 1 0\n"
+                               "2025-07-25T20:40:00 7000 600 0 0 1 0\n"
+                               "2025-07-25T20:50:00 7000 1200 0 0 1 0\n";
+    char *hash[2];
+    for (int k = 0; k < 2; k++) {
+        char text[TEXT_SIZE];
+        snprintf(text, sizeof text, TEXT, k ? "TAI" : "UTC");
+        write_file("positions.oem", text);
+        glint_scenario *s = read_with(SOUND, PART_ORBIT, "[orbit]\noem = \"positions.oem\"\n");
+        hash[k] = fact_of(s, "scenario_hash");
+        glint_scenario_free(s);
+    }
+    ck_assert_str_ne(hash[0], hash[1]);
+    free(hash[0]);
+    free(hash[1]);
+}
+END_TEST
+
 /* The total eclipse of 8 April 2024 where it was greatest: 25.3 N, 104.1 W, 18:18:29 TD, 4 min 28 s
  * of totality (Espenak, NASA eclipse predictions, from JPL's ephemerides and a Moon 0.05 %
  * smaller). 25 km of the Moon's place move the middle by up to 40 s and change the duration by 3 %;
@@ -883,6 +909,7 @@ int main(void)
     tcase_add_test(tc, test_observers_moon_shadow_is_met_by_a_run_on_its_way);
     tcase_add_test(tc, test_observers_header_says_what_is_assumed);
     tcase_add_test(tc, test_observers_hash_knows_the_mask);
+    tcase_add_test(tc, test_observers_hash_knows_when_positions_hold);
     tcase_add_test(tc, test_observers_moon_makes_the_eclipse_of_april_2024);
     suite_add_tcase(suite, tc);
     return run_suite(suite);

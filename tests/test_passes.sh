@@ -45,6 +45,11 @@ sed 's/latitude_deg = 48.2/latitude_deg = -95/' orbit.toml >wrong.toml
 t 'a table for people' 0 passes orbit.toml
 has out 'culmination'
 has out 'no "satellite", one orbit, Vienna'
+t 'a pass of several days names them' 0 passes orbit.toml --set time.duration_s=200000 \
+    --set 'orbit={circular={geostationary_longitude_deg=16.37}}'
+for day in 02 03; do # the site gets light and dark on both
+    [ "$(grep -c "^2024-01-$day  .* the site is" out)" = 2 ] || fail "not two notes of January $day"
+done
 t 'a table in a file' 0 passes orbit.toml -o table.txt
 [ ! -s out ] && [ -s table.txt ] || fail 'the file is empty, or standard output is not'
 t 'csv' 0 passes orbit.toml other.toml --format csv

@@ -295,6 +295,9 @@ const glint_pass *glint_passes_get(const glint_passes *passes, size_t k);
 /* Name of the band of the magnitudes, and of the satellite; "" where not said. Borrowed. */
 const char *glint_passes_band(const glint_passes *passes);
 const char *glint_passes_satellite(const glint_passes *passes);
+/* True when a path names a file that the scenario was read from: nothing should be written there.
+ */
+bool glint_passes_reads(const glint_passes *passes, const char *path);
 /* "rise", "culmination", "set", "umbra-end", ...; NULL for no such kind. */
 const char *glint_event_name(glint_event_kind kind);
 /* The nearest of the 16 points of the compass, "NNE". azimuth: rad, finite. */
@@ -308,7 +311,7 @@ typedef enum glint_format {
 } glint_format;
 
 /* Writes the passes of n scenarios merged in order of time. path: as of glint_table_write. Errors:
- * GLINT_OUTPUT, GLINT_INTERNAL. */
+ * GLINT_OUTPUT, also where a scenario was read from that file; GLINT_INTERNAL. */
 glint_status glint_passes_write(const glint_passes *const *passes, size_t n, glint_format format,
                                 const char *path, glint_error *error);
 
@@ -366,8 +369,11 @@ bool glint_ephemeris_value(const glint_ephemeris *ephemeris, const glint_ephemer
 /* What the header of its table says: fact k from 0; false past the end. Texts borrowed. */
 bool glint_ephemeris_fact(const glint_ephemeris *ephemeris, size_t k, const char **key,
                           const char **value);
+/* True when a path names a file that the scenario was read from: nothing should be written there.
+ */
+bool glint_ephemeris_reads(const glint_ephemeris *ephemeris, const char *path);
 /* Writes all of it. path, progress: as of glint_table_write. Errors: those of glint_ephemeris_next;
- * GLINT_OUTPUT. */
+ * GLINT_OUTPUT, also where the scenario was read from that file. */
 glint_status glint_ephemeris_write(glint_ephemeris *ephemeris, glint_format format,
                                    const char *path, glint_progress *progress, void *context,
                                    glint_error *error);
@@ -529,9 +535,9 @@ glint_status glint_verify(const char *path, const char *const *overrides, size_t
 /* A parameter of a BRDF model. */
 typedef struct glint_brdf_param {
     const char *name, *unit, *doc;
-    double min, max;      /* may be infinite */
+    double min, max;         /* may be infinite */
     bool min_open, max_open; /* that end does not belong to the range */
-    double default_value; /* where not required */
+    double default_value;    /* where not required */
     bool required;
     int dimensions; /* 0: a number; 2: rows of numbers, each in the range */
 } glint_brdf_param;
@@ -544,7 +550,8 @@ const char *glint_brdf_source(size_t k);
 /* Parameter j of model k; false past the end. */
 bool glint_brdf_parameter(size_t k, size_t j, glint_brdf_param *out);
 
-/* Whether glint_brdf_fit takes model k: it has values everywhere, and numbers alone as parameters. */
+/* Whether glint_brdf_fit takes model k: it has values everywhere, and numbers alone as parameters.
+ */
 bool glint_brdf_can_be_fitted(size_t k);
 
 /* How a file of measured BRDF values is laid out: rows of numbers, parted by commas, semicolons or
@@ -679,8 +686,8 @@ glint_status glint_material_brdf(const glint_material *material, double theta_i,
                                  double theta_r, double phi_r, double *f, glint_error *error);
 
 /* Whether what is measured of a material was measured around these directions (as above, not below
- * the horizon): between its measurements. Elsewhere f is the nearest measured one. True of materials
- * without measured tables. */
+ * the horizon): between its measurements. Elsewhere f is the nearest measured one. True of
+ * materials without measured tables. */
 bool glint_material_covers(const glint_material *material, double theta_i, double phi_i,
                            double theta_r, double phi_r);
 
@@ -691,8 +698,9 @@ double glint_material_mirrored(const glint_material *material, double theta_i);
 
 /* The directional-hemispherical reflectance: the part of the light from one direction that is sent
  * back. theta_i: rad, 0 <= theta_i < pi/2. error_bound: estimate of the absolute error of *dhr,
- * NULL allowed; 1e-8 of it is aimed at, 1e-5 of measured tables. Errors: GLINT_ARGUMENT for theta_i; GLINT_INPUT where so
- * much could not be reached (*dhr and *error_bound hold what was); GLINT_INTERNAL. */
+ * NULL allowed; 1e-8 of it is aimed at, 1e-5 of measured tables. Errors: GLINT_ARGUMENT for
+ * theta_i; GLINT_INPUT where so much could not be reached (*dhr and *error_bound hold what was);
+ * GLINT_INTERNAL. */
 glint_status glint_material_dhr(const glint_material *material, double theta_i, double phi_i,
                                 double *dhr, double *error_bound, glint_error *error);
 

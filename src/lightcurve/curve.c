@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "glint_version.h"
 
@@ -293,16 +292,7 @@ bool glint_curve_fact(const glint_curve *c, size_t k, const char **key, const ch
 
 bool glint_curve_reads(const glint_curve *c, const char *path)
 {
-    struct stat wanted, own;
-    if (stat(path, &wanted) != 0) return false;
-    for (int i = 0; i <= c->s->n_documents; i++) {
-        const char *read =
-            i < c->s->n_documents ? c->s->documents[i]->path : c->s->expected.csv.path;
-        if (read && stat(read, &own) == 0 && own.st_dev == wanted.st_dev &&
-            own.st_ino == wanted.st_ino)
-            return true;
-    }
-    return false;
+    return file_list_has(&c->s->files, path);
 }
 
 const char *glint_curve_scenario(const glint_curve *c)

@@ -446,3 +446,8 @@ bool glint_ephemeris_fact(const glint_ephemeris *e, size_t k, const char **key, 
     *value = e->facts.items[k].value;
     return true;
 }
+
+bool glint_ephemeris_reads(const glint_ephemeris *e, const char *path)
+{
+    return file_list_has(&e->s->files, path);
+}

@@ -106,6 +106,8 @@ static uint64_t hash_orbit(uint64_t hash, const scenario_orbit *o)
         hash = hash_bytes(hash, elements, sizeof elements);
     }
     const orbit_table *table = orbit_table_of(o->propagator, NULL);
+    /* the times of the records count from there */
+    if (table) hash = hash_bytes(hash, table->reference_jd, sizeof table->reference_jd);
     for (size_t k = 0; table && k < table->n; k++) {
         const table_segment *part = &table->segments[k];
         const int how[] = {(int)part->frame, (int)part->method, part->degree};

@@ -567,3 +567,8 @@ const char *glint_compass_point(double azimuth_rad)
     const double turns = azimuth_rad / TWO_PI;
     return POINTS[(int)floor((turns - floor(turns)) * 16 + 0.5) % 16];
 }
+
+bool glint_passes_reads(const glint_passes *passes, const char *path)
+{
+    return file_list_has(&passes->s->files, path);
+}

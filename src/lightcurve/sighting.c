@@ -78,6 +78,7 @@ static void fill_moment(const glint_scenario *s, double t_s, const frame_set *em
 {
     moment *m = &out->moment;
     m->t_s = t_s - out->light_time_s;
+    m->viewer = (int)(v->observer - s->observers);
     memcpy(m->itrs_gcrs, emission->itrs_gcrs, sizeof m->itrs_gcrs);
     sun_from_point(emission, m->r_m, s->aberration, m->sun, &out->sun_distance_m);
     if (s->needs_moon) {

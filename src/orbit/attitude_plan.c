@@ -22,8 +22,10 @@ glint_status attitude_plan_add(attitude_plan *plan, const attitude_leg *leg, gli
 
 void attitude_plan_free(attitude_plan *plan)
 {
-    for (int k = 0; k < plan->n; k++)
+    for (int k = 0; k < plan->n; k++) {
         attitude_free(&plan->legs[k].law);
+        free(plan->legs[k].starts);
+    }
     free(plan->legs);
     *plan = (attitude_plan){0};
 }
@@ -48,33 +50,53 @@ static glint_status both_laws(const attitude_plan *plan, int k, const moment *m,
     return status;
 }
 
-glint_status attitude_plan_settle(attitude_plan *plan, int k, const moment *start,
+glint_status attitude_plan_settle(attitude_plan *plan, int k, const moment *starts, int n,
                                   glint_error *error)
 {
     attitude_leg *leg = &plan->legs[k];
-    double before_gcrs[9];
-    const glint_status status = both_laws(plan, k, start, before_gcrs, leg->start_way, error);
-    if (status) return status;
-    leg->has_start_way = true;
-    if (leg->rate_rad_s > 0)
-        leg->slew_s = 2 * atan2(norm3(leg->start_way + 1), leg->start_way[0]) / leg->rate_rad_s;
+    slew_start *settled = calloc((size_t)n, sizeof *settled);
+    glint_status status = settled ? GLINT_OK : error_no_memory(error);
+    double longest_s = 0;
+    for (int i = 0; i < n && !status; i++) {
+        double before_gcrs[9], *way = settled[i].way;
+        status = both_laws(plan, k, &starts[i], before_gcrs, way, error);
+        settled[i].length_s =
+            leg->rate_rad_s > 0 ? 2 * atan2(norm3(way + 1), way[0]) / leg->rate_rad_s : leg->slew_s;
+        longest_s = fmax(longest_s, settled[i].length_s);
+    }
+    if (status) {
+        free(settled);
+        return status;
+    }
+    free(leg->starts);
+    leg->starts = settled;
+    leg->n_starts = n;
+    leg->slew_s = longest_s;
     return GLINT_OK;
 }
 
+/* How the slew of a leg begins for the observer of a moment; NULL where it is not settled. */
+static const slew_start *start_of(const attitude_leg *leg, const moment *m)
+{
+    if (leg->n_starts == 0) return NULL;
+    return &leg->starts[leg->n_starts > 1 ? m->viewer : 0];
+}
+
 /* Leg k while it is being turned to: a part of the way from the law before. */
-static glint_status slew_at(const attitude_plan *plan, int k, const moment *m, double body_gcrs[9],
-                            glint_error *error)
+static glint_status slew_at(const attitude_plan *plan, int k, const moment *m, double length_s,
+                            double body_gcrs[9], glint_error *error)
 {
     const attitude_leg *leg = &plan->legs[k];
+    const slew_start *start = start_of(leg, m);
     double before_gcrs[9], way[4], turn[9];
     const glint_status status = both_laws(plan, k, m, before_gcrs, way, error);
     if (status) return status;
     /* Of the two ways the one that goes on with the way of the start: no jump where the laws pass
      * through opposite attitudes. */
-    if (leg->has_start_way && quat_dot(way, leg->start_way) < 0)
+    if (start && quat_dot(way, start->way) < 0)
         for (int i = 0; i < 4; i++)
             way[i] = -way[i];
-    quat_part(way, (m->t_s - leg->from_s) / leg->slew_s, way);
+    quat_part(way, (m->t_s - leg->from_s) / length_s, way);
     mat_from_quat(way, turn);
     mat_mul(turn, before_gcrs, body_gcrs);
     return GLINT_OK;
@@ -87,7 +109,10 @@ glint_status attitude_plan_at(const attitude_plan *plan, const moment *m, double
     while (k > 0 && m->t_s < plan->legs[k].from_s)
         k--;
     const attitude_leg *leg = &plan->legs[k];
-    if (k > 0 && m->t_s < leg->from_s + leg->slew_s) return slew_at(plan, k, m, body_gcrs, error);
+    const slew_start *start = start_of(leg, m);
+    const double length_s = start ? start->length_s : leg->slew_s;
+    if (k > 0 && m->t_s < leg->from_s + length_s)
+        return slew_at(plan, k, m, length_s, body_gcrs, error);
     return attitude_at(&leg->law, m, body_gcrs, error);
 }
 
@@ -106,9 +131,20 @@ double attitude_plan_next_change(const attitude_plan *plan, double t_s)
         if (k > 0 && leg->from_s > t_s) next_s = fmin(next_s, leg->from_s);
         if (k > 0 && leg->from_s + leg->slew_s > t_s)
             next_s = fmin(next_s, leg->from_s + leg->slew_s);
+        for (int i = 0; i < leg->n_starts; i++)
+            if (leg->from_s + leg->starts[i].length_s > t_s)
+                next_s = fmin(next_s, leg->from_s + leg->starts[i].length_s);
         if (leg->law.table) next_s = fmin(next_s, attitude_table_next_row(leg->law.table, t_s));
     }
     return next_s;
+}
+
+/* Whether the slew to a leg takes longer for one observer than for another. */
+static bool lengths_differ(const attitude_leg *leg)
+{
+    for (int i = 0; i < leg->n_starts; i++)
+        if (leg->starts[i].length_s < leg->slew_s) return true;
+    return false;
 }
 
 void attitude_plan_describe(const attitude_plan *plan, const char *indent, text *out)
@@ -116,7 +152,9 @@ void attitude_plan_describe(const attitude_plan *plan, const char *indent, text 
     for (int k = 0; k < plan->n; k++) {
         const attitude_leg *leg = &plan->legs[k];
         if (k > 0) text_printf(out, "%sfrom %.10g s ", indent, leg->from_s);
-        if (k > 0 && leg->slew_s > 0) text_printf(out, "by a slew of %.6g s to ", leg->slew_s);
+        if (k > 0 && leg->slew_s > 0)
+            text_printf(out, "by a slew of %s%.6g s to ", lengths_differ(leg) ? "up to " : "",
+                        leg->slew_s);
         text_add(out, leg->law.law->name);
         if (leg->law.geodetic) text_add(out, ", geodetic");
         if (leg->law.table) {

@@ -6,14 +6,21 @@
 
 struct text;
 
+/* What is known of a slew when it begins. */
+typedef struct slew_start {
+    double way[4];   /* the turn from the law before to the new one, w >= 0 */
+    double length_s; /* of the slew */
+} slew_start;
+
 /* A law from a moment on. */
 typedef struct attitude_leg {
-    attitude law;        /* owned */
-    double from_s;       /* TT s from the start of the run; of the first leg not used */
-    double slew_s;       /* length of the slew that begins then; 0: at once */
-    double rate_rad_s;   /* of the slew, where that was given in place of its length; else 0 */
-    double start_way[4]; /* the turn from the law before to this one when the slew begins, w >= 0 */
-    bool has_start_way;  /* attitude_plan_settle has been here */
+    attitude law;      /* owned */
+    double from_s;     /* TT s from the start of the run; of the first leg not used */
+    double slew_s;     /* length of the slew that begins then, the longest of several; 0: at once */
+    double rate_rad_s; /* of the slew, where that was given in place of its length; else 0 */
+    slew_start *starts; /* owned; from attitude_plan_settle: one, or one for each observer where a
+                           law looks at him; NULL before */
+    int n_starts;
     place where;
 } attitude_leg;
 
@@ -29,8 +36,9 @@ void attitude_plan_free(attitude_plan *plan);
 
 /* Tells leg k (> 0, with a slew) the moment at which its slew begins. That decides on which side
  * the slew goes, the shorter one then, and keeps to it while the laws move; and the length of a
- * slew whose rate is given. start: at from_s. Errors (GLINT_INPUT): those of the two laws then. */
-glint_status attitude_plan_settle(attitude_plan *plan, int k, const moment *start,
+ * slew whose rate is given. starts: n moments at from_s, one, or one for each observer in the order
+ * of moment.viewer. Errors: those of the two laws then (GLINT_INPUT); GLINT_INTERNAL (memory). */
+glint_status attitude_plan_settle(attitude_plan *plan, int k, const moment *starts, int n,
                                   glint_error *error);
 
 /* Body axes: v_body = R v_gcrs. During a slew the body turns away from the law before it, which
@@ -38,10 +46,10 @@ glint_status attitude_plan_settle(attitude_plan *plan, int k, const moment *star
  * axis that stays in the body where both laws rest. Errors: those of attitude_at. */
 glint_status attitude_plan_at(const attitude_plan *plan, const moment *m, double body_gcrs[9],
                               glint_error *error);
-/* True when some law looks at that direction. */
 /* How the laws turn the body by themselves, slews and tables apart: steadily only where there is
  * one law and it does. */
 attitude_turning attitude_plan_turning(const attitude_plan *plan);
+/* True when some law looks at that direction. */
 bool attitude_plan_wants(const attitude_plan *plan, direction_kind kind);
 /* The first time after t_s at which the rates of turning may jump: a law or a slew begins or ends,
  * a row of a table; INFINITY where there is none. */

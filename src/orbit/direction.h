@@ -16,6 +16,7 @@ typedef struct moment {
     double sun[3];           /* unit, satellite to apparent Sun */
     double moon[3];          /* unit, satellite to Moon; set only where something looks at it */
     double observer[3];      /* unit, satellite to observer along the light path */
+    int viewer;              /* number of that observer in the scenario, from 0 */
     double itrs_gcrs[9];     /* v_itrs = R v_gcrs */
 } moment;
 

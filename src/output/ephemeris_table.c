@@ -212,6 +212,7 @@ glint_status glint_ephemeris_write(glint_ephemeris *e, glint_format format, cons
     out_file *file;
     text t = {0};
     json j = {.out = &t};
+    if (path && glint_ephemeris_reads(e, path)) return out_file_is_input(path, error);
     glint_status status = out_file_open(path, &file, error);
     if (status) return status;
     status = write_all(e, format, file, &j, progress, context, error);

@@ -229,6 +229,12 @@ void out_file_abandon(out_file *file)
     release(file);
 }
 
+glint_status out_file_is_input(const char *path, glint_error *error)
+{
+    return error_set(error, GLINT_OUTPUT, (place){path, 0, 0},
+                     "the scenario is read from this file; expected another one to write to");
+}
+
 glint_status glint_text_write(const char *path, const char *bytes, size_t length,
                               glint_error *error)
 {

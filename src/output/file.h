@@ -16,6 +16,8 @@ glint_status out_file_write(out_file *file, const char *bytes, size_t n, glint_e
 /* Syncs, puts the file in its place and closes; on error nothing is left behind. Frees `file`
  * either way. Errors: GLINT_OUTPUT. */
 glint_status out_file_commit(out_file *file, glint_error *error);
+/* The error that `path` is a file which the scenario is read from. */
+glint_status out_file_is_input(const char *path, glint_error *error);
 /* Closes and leaves nothing behind. NULL is fine. */
 void out_file_abandon(out_file *file);
 

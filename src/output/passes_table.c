@@ -106,9 +106,28 @@ static void add_line(text *t, const listed_pass *l)
                 p->site[0] ? ", " : "", p->site);
 }
 
-/* What happens besides: the Earth's shadow, darkness, flashes. */
-static void add_note(text *t, const glint_passes *of, const glint_pass_event *e)
+/* The time of a note, with its date where that is not the one at the head of the pass. */
+static void add_note_time(text *t, const glint_pass *pass, const glint_utc *u)
 {
+    const glint_utc *head = &pass->events[0].utc;
+    if (u->year == head->year && u->month == head->month && u->day == head->day)
+        text_printf(t, "%12s", "");
+    else
+        text_printf(t, "%04d-%02d-%02d  ", u->year, u->month, u->day);
+    add_clock(t, u);
+}
+
+/* What happens besides: the Earth's shadow, darkness, flashes; and what stands in the pass's own
+ * line, but so much later that its time of day does not say which day. */
+static void add_note(text *t, const glint_passes *of, const glint_pass *pass,
+                     const glint_pass_event *e)
+{
+    static const double DAY_S = 86400;
+    static const char *const LATE_WORDS[] = {
+        [GLINT_CULMINATION] = "culmination",
+        [GLINT_SET] = "set",
+        [GLINT_BRIGHTEST] = "brightest",
+    };
     static const char *const WORDS[] = {
         [GLINT_UMBRA_END] = "first sunlight",
         [GLINT_PENUMBRA_END] = "in full sunlight",
@@ -119,11 +138,15 @@ static void add_note(text *t, const glint_passes *of, const glint_pass_event *e)
         [GLINT_FLASH] = "flash",
         [GLINT_MORE_FLASHES] = "from here on flashes are left out: too many, or too long a search",
     };
-    if ((size_t)e->kind >= sizeof WORDS / sizeof *WORDS || !WORDS[e->kind]) return;
-    text_printf(t, "%12s", "");
-    add_clock(t, &e->utc);
+    const char *word = NULL;
+    if ((size_t)e->kind < sizeof WORDS / sizeof *WORDS) word = WORDS[e->kind];
+    if (!word && (size_t)e->kind < sizeof LATE_WORDS / sizeof *LATE_WORDS &&
+        e->t_s - pass->from_s >= DAY_S)
+        word = LATE_WORDS[e->kind];
+    if (!word) return;
+    add_note_time(t, pass, &e->utc);
     text_printf(t, " %3s %5.1f  %s", glint_compass_point(e->azimuth_rad),
-                e->elevation_rad * DEGREES, WORDS[e->kind]);
+                e->elevation_rad * DEGREES, word);
     if (e->kind == GLINT_FLASH) {
         text_printf(t, " of %s (%.3g, %.3g, %.3g) for %.3g s, %.2f deg off", e->component,
                     e->normal[0], e->normal[1], e->normal[2], e->to_s - e->from_s,
@@ -151,7 +174,7 @@ static void write_people(const listed_pass *list, size_t n, text *t)
         const glint_pass *p = list[k].pass;
         add_line(t, &list[k]);
         for (size_t i = 0; i < p->n_events; i++)
-            add_note(t, list[k].of, &p->events[i]);
+            add_note(t, list[k].of, p, &p->events[i]);
     }
 }
 
@@ -304,6 +327,8 @@ glint_status glint_passes_write(const glint_passes *const *passes, size_t n, gli
                                 const char *path, glint_error *error)
 {
     size_t n_list;
+    for (size_t k = 0; path && k < n; k++)
+        if (glint_passes_reads(passes[k], path)) return out_file_is_input(path, error);
     listed_pass *list = merge(passes, n, &n_list);
     if (!list) return error_no_memory(error);
     text t = {0};

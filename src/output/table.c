@@ -129,9 +129,11 @@ static glint_status sinks_open(const glint_curve *curve, const char *path, const
     size_t n;
     const glint_column *columns = glint_curve_columns(curve, &n);
     *out = (sinks){0};
-    if (path && glint_curve_reads(curve, path))
-        return error_set(error, GLINT_OUTPUT, (place){path, 0, 0},
-                         "the scenario is read from this file; expected another one to write to");
+    if (path && glint_curve_reads(curve, path)) return out_file_is_input(path, error);
+    if (picture && glint_curve_reads(curve, picture)) return out_file_is_input(picture, error);
+    if (path && picture && string_equal(path, picture))
+        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                         "table and picture both go to '%s'; expected two files", path);
     if (picture && glint_curve_observers(curve) > 1)
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
                          "a picture shows the curve of one observer, and there are %zu; expected a "

@@ -254,14 +254,12 @@ static void read_leg(reading *rd, const toml_node *table, int k)
     reading_note(rd, attitude_plan_add(&rd->s->attitude, &leg, rd->errors));
 }
 
-/* The observer's direction when a slew begins, light time left aside (3e-5 rad): it only decides
+/* An observer's direction when a slew begins, light time left aside (3e-5 rad): it only decides
  * the side and the length of the slew. */
-static glint_status observer_of_slew(const glint_scenario *s, const frame_set *frames, moment *m,
+static glint_status observer_of_slew(const scenario_observer *o, const frame_set *frames, moment *m,
                                      glint_error *error)
 {
-    const scenario_observer *o = s->observers; /* of several the first: the turn is one for all */
     double place_m[3], v_m_s[3];
-    if (s->n_observers == 0) return GLINT_OK; /* it was wrong, and that has been said */
     if (o->kind == OBSERVER_DIRECTION) {
         copy3(o->direction, m->observer);
         return GLINT_OK;
@@ -279,9 +277,9 @@ static glint_status observer_of_slew(const glint_scenario *s, const frame_set *f
     return GLINT_OK;
 }
 
-/* What the laws of a slew look at when it begins. */
-static glint_status moment_of_slew(const glint_scenario *s, double t_s, moment *m,
-                                   glint_error *error)
+/* What the laws of a slew look at when it begins, for each of the first n observers. */
+static glint_status moments_of_slew(const glint_scenario *s, double t_s, moment *moments, int n,
+                                    glint_error *error)
 {
     static const double GRID_STEP_S = 1; /* any below the grid's own: it is never passed by */
     const earth_orientation still = {0, 0};
@@ -293,6 +291,7 @@ static glint_status moment_of_slew(const glint_scenario *s, double t_s, moment *
     if (status) return status;
     frame_grid_at(grid, t_s, FRAMES_TEME | FRAMES_SUN, &frames);
     frame_grid_free(grid);
+    moment *m = &moments[0];
     *m = (moment){.t_s = t_s};
     status = orbit_state(s->orbit.propagator, t_s, &frames, NULL, m->r_m, m->v_m_s, error);
     if (status) return status;
@@ -301,7 +300,29 @@ static glint_status moment_of_slew(const glint_scenario *s, double t_s, moment *
     moon_position(&s->clock, t_s, NULL, m->moon);
     sub3(m->moon, m->r_m, m->moon);
     unit3(m->moon, m->moon);
-    return observer_of_slew(s, &frames, m, error);
+    for (int i = 0; i < n && !status; i++) {
+        moments[i] = moments[0];
+        moments[i].viewer = i;
+        /* without observers they were wrong, and that has been said */
+        if (i < s->n_observers)
+            status = observer_of_slew(&s->observers[i], &frames, &moments[i], error);
+    }
+    return status;
+}
+
+/* Begins the slew of leg k. */
+static glint_status begin_slew(glint_scenario *s, int k, glint_error *error)
+{
+    const attitude_leg *leg = &s->attitude.legs[k];
+    const bool looks = attitude_wants(&leg->law, DIRECTION_OBSERVER) ||
+                       attitude_wants(&leg[-1].law, DIRECTION_OBSERVER);
+    const int n = looks && s->n_observers > 1 ? s->n_observers : 1;
+    moment *starts = calloc((size_t)n, sizeof *starts);
+    if (!starts) return error_no_memory(error);
+    glint_status status = moments_of_slew(s, leg->from_s, starts, n, error);
+    if (!status) status = attitude_plan_settle(&s->attitude, k, starts, n, error);
+    free(starts);
+    return status;
 }
 
 /* Begins the slew of leg k, and sees that it ends before the next one. */
@@ -310,10 +331,8 @@ static void settle(reading *rd, int k)
     glint_scenario *s = rd->s;
     attitude_leg *leg = &s->attitude.legs[k];
     const attitude_leg *next = k + 1 < s->attitude.n ? leg + 1 : NULL;
-    moment start;
     glint_error error;
-    glint_status status = moment_of_slew(s, leg->from_s, &start, &error);
-    if (!status) status = attitude_plan_settle(&s->attitude, k, &start, &error);
+    const glint_status status = begin_slew(s, k, &error);
     if (status) {
         reading_note(rd, errors_take(rd->errors, &error, leg->where));
         return;
@@ -325,11 +344,11 @@ static void settle(reading *rd, int k)
                                     leg->slew_s, leg->from_s + leg->slew_s - next->from_s));
 }
 
-/* Whether the run has rows at or after the beginning of a slew to this law. */
+/* Whether a slew to this law begins within the run, or goes on when that starts. Passes are sought
+ * to its end, which may lie behind the last row. */
 static bool is_slewed_to(const glint_scenario *s, const attitude_leg *leg)
 {
-    const double end_s = (double)(s->n_steps - 1) * s->step_s;
-    return leg->from_s <= end_s && (leg->rate_rad_s > 0 || leg->slew_s > fmax(0, -leg->from_s));
+    return leg->from_s <= s->span_s && (leg->rate_rad_s > 0 || leg->slew_s > fmax(0, -leg->from_s));
 }
 
 /* Tables that do not reach over the time when they are in use: rows there cannot be computed. */

@@ -169,7 +169,7 @@ void read_measured(reader *r, measured_cache *cache, brdf_lobe *lobe)
     if (!reader_string(r, "file", true, &name) || r->status) return;
     const place where = reader_place(r, "file");
     char *path = path_beside(where.file, name);
-    if (!path) {
+    if (!path || (cache->files && !file_list_add(cache->files, path))) {
         r->status = errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
     } else if (!take_known(cache, path, &format, lobe)) {
         r->status = read_file(path, where, &format, lobe, r->errors);

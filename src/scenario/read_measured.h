@@ -3,6 +3,7 @@
 #define GLINT_SCENARIO_READ_MEASURED_H
 
 #include "brdf/brdf.h"
+#include "scenario/files.h"
 #include "scenario/reader.h"
 
 /* Files that were read, so that a material with many bands, and materials of one file, read it
@@ -11,6 +12,7 @@
 typedef struct measured_cache {
     struct measured_source *items; /* owned */
     int n;
+    file_list *files; /* borrowed; what is read is added to it; NULL: not kept */
 } measured_cache;
 
 void measured_cache_free(measured_cache *cache);

@@ -45,7 +45,7 @@ toml_document *reading_open(reading *rd, const char *path, place asked_from)
 char *reading_path(reading *rd, const toml_node *node)
 {
     char *path = path_beside(node->where.file, node->string);
-    if (!path) reading_no_memory(rd);
+    if (!path || !file_list_add(&rd->s->files, path)) reading_no_memory(rd);
     return path;
 }
 
@@ -539,11 +539,12 @@ static glint_scenario *start(const char *path, reading *rd, toml_document **docu
         reading_no_memory(rd);
         return NULL;
     }
+    rd->tables.files = &rd->s->files;
     *document = reading_open(rd, path, PLACE_NONE);
     if (!*document) return NULL;
     rd->s->text = string_copy((*document)->text, strlen((*document)->text));
     rd->s->overrides = calloc(rd->n_overrides + 1, sizeof *rd->s->overrides);
-    if (!rd->s->text || !rd->s->overrides) {
+    if (!rd->s->text || !rd->s->overrides || !file_list_add(&rd->s->files, path)) {
         reading_no_memory(rd);
         return NULL;
     }
@@ -674,5 +675,6 @@ void glint_scenario_free(glint_scenario *s)
     for (int i = 0; i < s->n_documents; i++)
         toml_free(s->documents[i]);
     free(s->documents);
+    file_list_free(&s->files);
     free(s);
 }

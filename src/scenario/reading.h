@@ -30,7 +30,8 @@ toml_document *reading_open(reading *rd, const char *path, place asked_from);
 /* Whether a "materials.NAME...=value" is for a material of a file in materials_from: the document
  * names such files and has no material of that name itself. */
 bool reading_override_waits(const toml_document *document, const char *assignment);
-/* Resolves a path that a node names, relative to its file; owned by the caller; NULL on error. */
+/* Resolves a path that a node names, relative to its file, and keeps it among the scenario's files;
+ * owned by the caller; NULL on error. */
 char *reading_path(reading *rd, const toml_node *node);
 
 /* A word of the vocabulary, or { ra_deg, dec_deg }, or { latitude_deg, longitude_deg, height_m }.

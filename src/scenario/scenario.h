@@ -12,6 +12,7 @@
 #include "orbit/horizon.h"
 #include "orbit/orbit.h"
 #include "orbit/refraction.h"
+#include "scenario/files.h"
 #include "scenario/toml.h"
 
 enum { SCENARIO_MAX_BANDS = 16 };
@@ -163,6 +164,7 @@ typedef struct expected_table {
 struct glint_scenario {
     toml_document **documents; /* owned; the scenario first, then what it names */
     int n_documents;
+    file_list files; /* all that it was read from: documents, and the files that they name */
     char **overrides; /* owned array of owned copies */
     size_t n_overrides;
     const char *title; /* "" where not said */
