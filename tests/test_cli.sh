@@ -448,7 +448,7 @@ has "$err" 'says nothing at' 'it ends at 40 s'
 t 'verify' 0 verify good.toml
 lines "$out" 1
 has "$out" 'ok    good.toml: 2 expectations'
-has "$err" '1 of 1 files as expected, 2 expectations compared'
+has "$err" '1 of 1 file as expected, 2 expectations compared'
 t 'verify a deviation' 1 verify good.toml wrong.toml
 lines "$out" 2
 has "$out" 'ok    good.toml: 2 expectations' 'FAIL  wrong.toml: 1 of 2 expectations not met'

@@ -89,6 +89,12 @@ show 'two_words' edge.toml
 show 'black' edge.toml --log
 show 'needle' edge.toml --hemisphere 45 --log
 show 'needle' edge.toml --hemisphere 0,45
+# What is written around a map stands at its edge: low where all is black, below the heading where all is bright.
+label_y() { grep -B1 '>90°<' a.svg | sed -n 's/.*translate([^,]*,\([0-9]*\).*/\1/p'; }
+show '90°' edge.toml:black --hemisphere 45
+[ "$(label_y)" -gt 450 ] || fail "the edge of a black map is at $(label_y) px of 800"
+show '90°' edge.toml:two_words --hemisphere 45
+[ "$(label_y)" -gt 170 ] || fail "the edge of a bright map is at $(label_y) px of 800"
 show 'black' edge.toml --geometry angles.csv
 show 'black' edge.toml --dhr --incidence 10
 cp "$materials" copy.toml

@@ -129,8 +129,8 @@ START_TEST(test_omm_read_says_what_there_is)
     const tle_query none = {0}, far = {.name = "ISS"}, wrong = {.designator = "1998"},
                     other = {.designator = "1998-067B"};
     assert_choice_refused(data("iss.csv"), &none,
-                          "ISS (ZARYA) (25544), HST (20580); say which one by its name, number or "
-                          "designator");
+                          "ISS (ZARYA) (25544), HST (20580); say which one by tle_name, tle_number or "
+                          "tle_designator");
     assert_choice_refused(data("iss.csv"), &far, "did you mean 'ISS (ZARYA)'?");
     assert_choice_refused(data("iss.csv"), &wrong, "a form like 1998-067A");
     assert_choice_refused(data("iss.json"), &other, "of designator 98067B; it has HST (20580)");

@@ -99,6 +99,10 @@ has err 'table, csv, json'
 t 'an output that cannot be written' 3 passes orbit.toml -o /nonexistent/out.txt
 t 'given directions' 1 passes "$scenarios/known/cube.toml"
 has err '[geometry]'
+t 'what is wrong with any scenario is said before the work begins' 1 passes -q \
+    "$scenarios/iss-vienna.toml" "$scenarios/known/cube.toml" "$scenarios/geo-moon-shadow.toml"
+has err '[geometry]'
+has err 'no observer is a site'
 
 [ $failures = 0 ] && echo 'passes and ephemerides from outside: all as expected'
 exit $((failures > 0))

@@ -595,6 +595,10 @@ START_TEST(test_revolved_check_refuses_what_cannot_be)
     spec = cylinder_shape(1, 1, 8);
     shape_material(&spec, "inside_material", 0);
     assert_refused(&spec, "inside_material", "caps hide the inside; expected open = true");
+    spec = cone_shape(1, 0.5, 1, 8);
+    SET(&spec, "open", 1);
+    shape_material(&spec, "cap_material", 0);
+    assert_refused(&spec, "cap_material", "open = true leaves the caps out");
     spec = cylinder_shape(1, 1, 10001);
     assert_refused(&spec, "sides", "expected between 3 and 10000");
     spec = cone_shape(1, 1e-7, 1, 8);
@@ -631,6 +635,10 @@ START_TEST(test_wing_and_boom_check_refuse_what_has_no_room)
     SET(&spec, "radius_m", 1);
     shape_material(&spec, "material", 0);
     assert_refused(&spec, "to_m", "the boom has no length");
+    SET(&spec, "to_m", 1, 2, 4);
+    SET(&spec, "open", 1);
+    shape_material(&spec, "cap_material", 0);
+    assert_refused(&spec, "cap_material", "open = true leaves the caps out");
 }
 END_TEST
 

@@ -564,8 +564,8 @@ START_TEST(test_tle_file_read_names_the_satellites_when_several_fit)
     glint_error error;
     ck_assert_int_eq(choose_here(NULL, 0, 2460881.5, &out, &error), GLINT_INPUT);
     ck_assert_msg(strstr(error.message, "ISS (ZARYA) (25544), MADE-UP GEO (41866), MADE-UP "
-                                        "MOLNIYA (99901); say which one by its name, number or "
-                                        "designator"),
+                                        "MOLNIYA (99901); say which one by tle_name, tle_number "
+                                        "or tle_designator"),
                   "%s", error.message);
 }
 END_TEST
@@ -588,7 +588,7 @@ START_TEST(test_tle_file_read_asks_for_the_number_where_a_name_stands_twice)
     snprintf(content, sizeof content, "OBJECT A\n%s\n%s\nOBJECT A\n%s\n%s\n", iss1, iss2,
              with(with(iss1, 3, "25545"), 69, "0"), with(with(iss2, 3, "25545"), 69, "6"));
     const near_query by_name = {"object a", 0, {2460881.5, 0.0}};
-    assert_choice_refused(content, &by_name, 0, "say which one by its number");
+    assert_choice_refused(content, &by_name, 0, "say which one by tle_number");
     const near_query by_number = {"object a", 25545, {2460881.5, 0.0}};
     tle out;
     glint_error error;

@@ -281,11 +281,13 @@ typedef struct glint_pass_options {
  * order of the file, and in order of time over each. */
 typedef struct glint_passes glint_passes;
 
+/* Whether a scenario can have passes, before any are looked for. Errors: GLINT_INPUT (directions are
+ * given instead of an orbit; no observer is a site). */
+glint_status glint_passes_check(const glint_scenario *scenario, glint_error *error);
 /* Finds them. scenario: must outlive *out; of glint_scenario_read_orbit, or glint_scenario_read.
  * options: NULL for what is usual. Rise, set and the Earth's shadow are found as roots, to 1e-6 s;
- * [time] step_s plays no part. Observers that are no sites are passed over. Errors: GLINT_INPUT
- * (directions are given instead of an orbit; no observer is a site; the orbit fails at some time),
- * GLINT_ARGUMENT, GLINT_INTERNAL. */
+ * [time] step_s plays no part. Observers that are no sites are passed over. Errors: those of
+ * glint_passes_check; GLINT_INPUT (the orbit fails at some time), GLINT_ARGUMENT, GLINT_INTERNAL. */
 glint_status glint_passes_find(const glint_scenario *scenario, const glint_pass_options *options,
                                glint_passes **out, glint_error *error);
 void glint_passes_free(glint_passes *passes);

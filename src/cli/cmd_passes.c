@@ -30,10 +30,15 @@ static glint_status read_all(const options *o, found *f)
     glint_status worst = GLINT_OK;
     for (size_t k = 0; k < f->n; k++) {
         glint_errors *errors = glint_errors_new();
-        const glint_status status = glint_scenario_read_orbit(
-            o->operands[k], o->overrides, o->n_overrides, &f->scenarios[k], errors);
+        glint_error error = {0};
+        glint_status status = glint_scenario_read_orbit(o->operands[k], o->overrides,
+                                                        o->n_overrides, &f->scenarios[k], errors);
         report_errors(errors, status, o->quiet);
         glint_errors_free(errors);
+        if (status == GLINT_OK && glint_passes_check(f->scenarios[k], &error)) {
+            report_error(&error);
+            status = error.status;
+        }
         if (status > worst) worst = status;
     }
     return worst;

@@ -47,7 +47,8 @@ glint_status cmd_verify(const options *o)
     const glint_status written = output_finish(&out, &error);
     if (written) report_error(&error);
     if (!o->quiet)
-        fprintf(stderr, "%lld of %lld files as expected, %lld expectations compared\n",
-                done.good_files, done.files, done.expectations);
+        fprintf(stderr, "%lld of %lld file%s as expected, %lld expectation%s compared\n",
+                done.good_files, done.files, done.files == 1 ? "" : "s", done.expectations,
+                done.expectations == 1 ? "" : "s");
     return written > worst ? written : worst;
 }

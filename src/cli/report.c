@@ -101,8 +101,12 @@ void report_summary(const glint_summary *s)
     char sunlit[DURATION_SIZE], visible[DURATION_SIZE];
     report_duration(s->sunlit_s, sunlit);
     report_duration(s->visible_s, visible);
-    fprintf(stderr, "rows       %lld, of which %lld have a magnitude\n", (long long)s->rows,
-            (long long)s->bright_rows);
+    if (s->rows == 0) {
+        fprintf(stderr, "rows       none: [output] rows lets no row of the run through\n");
+        return;
+    }
+    fprintf(stderr, "rows       %lld, of which %lld %s a magnitude\n", (long long)s->rows,
+            (long long)s->bright_rows, s->bright_rows == 1 ? "has" : "have");
     if (s->bright_rows > 0) {
         fprintf(stderr, "magnitude  %s: minimum %.3f, median %.3f, maximum %.3f\n", s->band,
                 s->magnitude_min, s->magnitude_median, s->magnitude_max);

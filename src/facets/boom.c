@@ -50,11 +50,12 @@ static const primitive_key keys[N_KEYS] = {
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
 {
+    const glint_status ends = check_ends(spec, CAP_MATERIAL, -1, OPEN, errors);
     double along[3];
     sub3(spec->value[TO], spec->value[FROM], along);
     if (!primitive_key_sound(spec, FROM) || !primitive_key_sound(spec, TO) ||
         norm3(along) >= LENGTH_MIN_M)
-        return GLINT_OK;
+        return ends;
     return errors_add(errors, GLINT_INPUT, spec->key_place[TO],
                       "the boom has no length; expected to_m at least %g m from from_m",
                       LENGTH_MIN_M);

@@ -66,11 +66,9 @@ static const primitive_key keys[N_KEYS] = {
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
 {
-    glint_status status = check_resolution(spec, SIDES, TOLERANCE, errors);
-    if (spec->given[INSIDE_MATERIAL] && spec->value[OPEN][0] == 0.0)
-        status = errors_add(errors, GLINT_INPUT, spec->key_place[INSIDE_MATERIAL],
-                            "inside_material is given, but caps hide the inside; expected open = "
-                            "true beside it");
+    glint_status status = check_ends(spec, CAP_MATERIAL, INSIDE_MATERIAL, OPEN, errors);
+    const glint_status count = check_resolution(spec, SIDES, TOLERANCE, errors);
+    if (count) status = count;
     const double top_m = spec->value[TOP_RADIUS][0];
     if (primitive_key_sound(spec, TOP_RADIUS) && top_m > 0.0 && top_m < LENGTH_MIN_M)
         status = errors_add(errors, GLINT_INPUT, spec->key_place[TOP_RADIUS],

@@ -46,6 +46,11 @@ static const primitive_key keys[N_KEYS] = {
               .max = 1},
 };
 
+static glint_status check(const primitive_spec *spec, glint_errors *errors)
+{
+    return check_ends(spec, CAP_MATERIAL, -1, OPEN, errors);
+}
+
 static glint_status build(const primitive_spec *spec, int component, facet_list *out,
                           glint_errors *warnings, glint_error *error)
 {
@@ -76,7 +81,7 @@ const primitive_kind primitive_prism = {
            "direction on the caps",
     .keys = keys,
     .n_keys = N_KEYS,
-    .check = NULL,
+    .check = check,
     .build = build,
     .centre = centre,
 };

@@ -14,6 +14,22 @@ glint_status check_resolution(const primitive_spec *spec, int count_key, int tol
                       spec->kind->keys[count_key].name, spec->kind->keys[tolerance_key].name);
 }
 
+glint_status check_ends(const primitive_spec *spec, int cap_key, int inside_key, int open_key,
+                        glint_errors *errors)
+{
+    const bool open = spec->value[open_key][0] != 0.0;
+    if (open && spec->given[cap_key])
+        return errors_add(
+            errors, GLINT_INPUT, spec->key_place[cap_key],
+            "cap_material is given, but open = true leaves the caps out; expected one "
+            "of them");
+    if (!open && inside_key >= 0 && spec->given[inside_key])
+        return errors_add(errors, GLINT_INPUT, spec->key_place[inside_key],
+                          "inside_material is given, but caps hide the inside; expected open = "
+                          "true beside it");
+    return GLINT_OK;
+}
+
 int sides_of(const primitive_spec *spec, int sides_key, int tolerance_key, double radius_m)
 {
     if (!spec->given[tolerance_key]) return (int)spec->value[sides_key][0];

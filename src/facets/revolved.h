@@ -24,6 +24,11 @@ enum { SIDES_MIN = 3, SIDES_MAX = 10000, SIDES_DEFAULT = 64 };
 glint_status check_resolution(const primitive_spec *spec, int count_key, int tolerance_key,
                               glint_errors *errors);
 
+/* Errors where a material is given for what is not there: for the caps of an open body, for the
+ * inside of a closed one. inside_key: negative where the kind has no such key. */
+glint_status check_ends(const primitive_spec *spec, int cap_key, int inside_key, int open_key,
+                        glint_errors *errors);
+
 /* The number of sides by the values of these keys for circles up to that radius, m. */
 int sides_of(const primitive_spec *spec, int sides_key, int tolerance_key, double radius_m);
 

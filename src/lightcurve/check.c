@@ -13,6 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What makes a word plural, where it is. */
+static const char *plural(int64_t n)
+{
+    return n == 1 ? "" : "s";
+}
+
 static void report_time(const glint_scenario *s, text *t)
 {
     glint_utc start, end;
@@ -21,13 +27,13 @@ static void report_time(const glint_scenario *s, text *t)
     char a[UTC_TEXT_SIZE], b[UTC_TEXT_SIZE];
     utc_write(&start, a);
     utc_write(&end, b);
-    text_printf(t, "time        %.19sZ to %.19sZ, every %g s: %lld rows\n", a, b, s->step_s,
-                (long long)s->n_steps);
+    text_printf(t, "time        %.19sZ to %.19sZ, every %g s: %lld row%s\n", a, b, s->step_s,
+                (long long)s->n_steps, plural(s->n_steps));
     if (s->n_observers > 1)
         text_printf(t, "            for each of %d observers\n", s->n_observers);
     if (s->clock.n_leaps)
         text_printf(t, "            with %d leap second%s on the way\n", s->clock.n_leaps,
-                    s->clock.n_leaps > 1 ? "s" : "");
+                    plural(s->clock.n_leaps));
     for (int i = 0; i < s->n_observers; i++) {
         char *who = fact_observer(s, &s->observers[i]);
         text_printf(t, "observer    %s\n", who ? who : "");
@@ -82,8 +88,9 @@ static void report_primitives(const char *lines, text *t)
 static glint_status report_components(const glint_scenario *s, text *t, glint_error *error)
 {
     const satellite *sat = &s->satellite;
-    text_printf(t, "satellite   %d facets, %d components, %d materials\n", sat->model.n_facets,
-                sat->n_components, sat->n_materials);
+    text_printf(t, "satellite   %d facet%s, %d component%s, %d material%s\n", sat->model.n_facets,
+                plural(sat->model.n_facets), sat->n_components, plural(sat->n_components),
+                sat->n_materials, plural(sat->n_materials));
     for (int c = 0; c < sat->n_components; c++) {
         const scenario_component *component = &sat->components[c];
         model_component_facts facts;
@@ -91,7 +98,8 @@ static glint_status report_components(const glint_scenario *s, text *t, glint_er
         if (status) return status;
         text_printf(t, "  component %-20s", component->name);
         if (facts.n_facets)
-            text_printf(t, " %6d facets  %10.4g m^2  %s", facts.n_facets, facts.area_m2,
+            text_printf(t, " %6d %-6s  %10.4g m^2  %s", facts.n_facets,
+                        facts.n_facets == 1 ? "facet" : "facets", facts.area_m2,
                         facts.closed ? "closed" : "open");
         else
             text_add(t, "      a joint without facets");
@@ -224,8 +232,8 @@ static void report_materials(const glint_scenario *s, text *t)
     for (int m = 0; m < sat->n_materials; m++) {
         int n_facets;
         const double area_m2 = model_material_area(&sat->model, m, &n_facets);
-        text_printf(t, "  material  %-20s %6d facets  %10.4g m^2", sat->materials[m].name, n_facets,
-                    area_m2);
+        text_printf(t, "  material  %-20s %6d %-6s  %10.4g m^2", sat->materials[m].name, n_facets,
+                    n_facets == 1 ? "facet" : "facets", area_m2);
         if (sat->materials[m].source[0]) text_printf(t, "  (%s)", sat->materials[m].source);
         text_char(t, '\n');
         for (int b = 0; b < s->n_bands; b++) {
@@ -263,9 +271,9 @@ static void report_run(const glint_scenario *s, text *t)
         text_char(t, '\n');
         column_set_free(&columns);
     }
-    const int64_t expected = s->n_expectations + s->n_requirements;
-    if (expected || s->has_expected_table)
-        text_printf(t, "verify      %lld values and requirements%s\n", (long long)expected,
+    if (s->n_expectations || s->n_requirements || s->has_expected_table)
+        text_printf(t, "verify      %d expected value%s, %d requirement%s%s\n", s->n_expectations,
+                    plural(s->n_expectations), s->n_requirements, plural(s->n_requirements),
                     s->has_expected_table ? ", and a table of expected values" : "");
 }
 
@@ -274,8 +282,8 @@ static glint_status describe(const glint_scenario *s, bool is_model, text *t, gl
     text_printf(t, "%s: %s\n", s->documents[0]->path, is_model ? "a model" : "a scenario");
     if (s->title[0]) text_printf(t, "title       %s\n", s->title);
     if (!is_model && s->has_geometry)
-        text_printf(t, "geometry    %lld pairs of directions, given in the body frame\n",
-                    (long long)s->geometry.n);
+        text_printf(t, "geometry    %lld pair%s of directions, given in the body frame\n",
+                    (long long)s->geometry.n, plural(s->geometry.n));
     else if (!is_model)
         report_time(s, t);
     glint_status status = report_components(s, t, error);
@@ -331,7 +339,7 @@ static glint_status check_materials(const char *path, size_t n_overrides, char *
     glint_status worst = glint_material_names(path, &names, &n, errors);
     if (worst) return worst;
     text t = {0};
-    text_printf(&t, "%s: a file of %zu material%s\n", path, n, n == 1 ? "" : "s");
+    text_printf(&t, "%s: a file of %zu material%s\n", path, n, plural((int64_t)n));
     for (size_t k = 0; k < n; k++) {
         const glint_status status = describe_material(path, names[k], &t, errors);
         if (status > worst) worst = status;

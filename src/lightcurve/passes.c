@@ -196,14 +196,22 @@ void light_meter_free(light_meter *meter)
     *meter = (light_meter){0};
 }
 
+/* Has the geometry of n <= TILE times in the worker's tile and lights. */
+static glint_status light_meter_aim(light_meter *meter, const double *t_s, int n,
+                                    glint_error *error)
+{
+    watch *w = meter->w;
+    const glint_status status = watch_cover(w, t_s[0], error);
+    if (status) return status;
+    return geometry_fill_at(w->s, w->grid, 0, t_s, n, &meter->worker.geometry, &meter->worker.tile,
+                            meter->worker.lights, error);
+}
+
 glint_status light_meter_read(light_meter *meter, const double *t_s, int n, double *magnitude,
                               glint_error *error)
 {
     watch *w = meter->w;
-    glint_status status = watch_cover(w, t_s[0], error);
-    if (!status)
-        status = geometry_fill_at(w->s, w->grid, 0, t_s, n, &meter->worker.geometry,
-                                  &meter->worker.tile, meter->worker.lights, error);
+    glint_status status = light_meter_aim(meter, t_s, n, error);
     if (!status) status = tile_worker_sum(w->s, &meter->worker, &meter->photometry, error);
     for (int k = 0; !status && k < n; k++)
         magnitude[k] = meter->rows[k].flux_ratio[0] > 0 ? meter->rows[k].magnitude[0] : HUGE_VAL;
@@ -257,18 +265,85 @@ static glint_status refine_minima(light_meter *meter, const double *t_s, const d
     return GLINT_OK;
 }
 
+/* How the light of one component stood when it was last measured. */
+typedef struct aim {
+    double sun[3], observer[3]; /* unit, in its axes */
+} aim;
+
+/* Whether, in lane k, Sun or observer have moved by STEP_RAD or more in the axes of any component
+ * since `last`, or the Sun has grown or shrunk behind the Earth. A mirrored ray moves by twice the
+ * step at most, 0.2 deg, less than half of the Sun's width. */
+static bool has_moved(const light_meter *meter, int n_components, int k, const aim *last,
+                      double last_sunlit)
+{
+    static const double STEP_RAD = 0.1 * DEG, STEP_SUNLIT = 0.02;
+    if (fabs(meter->worker.tile.sunlit[k] - last_sunlit) >= STEP_SUNLIT) return true;
+    for (int c = 0; c < n_components; c++) {
+        const brdf_light *light = &meter->worker.lights[c];
+        double sun2 = 0, observer2 = 0;
+        for (int axis = 0; axis < 3; axis++) {
+            const double sun = light->i[axis][k] - last[c].sun[axis],
+                         observer = light->r[axis][k] - last[c].observer[axis];
+            sun2 += sun * sun;
+            observer2 += observer * observer;
+        }
+        if (fmax(sun2, observer2) >= STEP_RAD * STEP_RAD) return true;
+    }
+    return false;
+}
+
+static void remember(const light_meter *meter, int n_components, int k, aim *last)
+{
+    for (int c = 0; c < n_components; c++)
+        for (int axis = 0; axis < 3; axis++) {
+            last[c].sun[axis] = meter->worker.lights[c].i[axis][k];
+            last[c].observer[axis] = meter->worker.lights[c].r[axis][k];
+        }
+}
+
+/* Leaves out those of the times between which next to nothing moves: of a slow satellite most of
+ * them. The first and the last stay, and so does one of `most_apart` in a row. */
+static glint_status thin_samples(light_meter *meter, int most_apart, double *t_s, int *n,
+                                 glint_error *error)
+{
+    const int n_components = meter->w->s->satellite.n_components, all = *n;
+    aim *last = calloc((size_t)n_components, sizeof *last);
+    if (!last) return error_no_memory(error);
+    double last_sunlit = 0;
+    int kept = 0, since = 0;
+    glint_status status = GLINT_OK;
+    for (int first = 0; first < all && !status; first += TILE) {
+        const int in_tile = all - first < TILE ? all - first : TILE;
+        status = light_meter_aim(meter, t_s + first, in_tile, error);
+        for (int k = 0; k < in_tile && !status; k++) {
+            since++;
+            if (first + k > 0 && first + k + 1 < all && since < most_apart &&
+                !has_moved(meter, n_components, k, last, last_sunlit))
+                continue;
+            remember(meter, n_components, k, last);
+            last_sunlit = meter->worker.tile.sunlit[k];
+            t_s[kept++] = t_s[first + k];
+            since = 0;
+        }
+    }
+    free(last);
+    *n = kept;
+    return status;
+}
+
 /* One sunlit span: samples every second (more, so that there are 64 at least; fewer, so that there
- * are 20 000 at most), then the minima among them by golden section. */
+ * are 20 000 at most, or where little moves), then the minima among them by golden section. */
 static glint_status brightest_in_span(light_meter *meter, double from_s, double to_s,
                                       brightest *best, glint_error *error)
 {
     static const double STEP_S = 1, LEAST = 64, MOST = 20000;
-    const int steps = (int)fmin(fmax(ceil((to_s - from_s) / STEP_S), LEAST), MOST), n = steps + 1;
+    const int steps = (int)fmin(fmax(ceil((to_s - from_s) / STEP_S), LEAST), MOST);
+    int n = steps + 1;
     double *t_s = malloc(2 * (size_t)n * sizeof *t_s), *magnitude = t_s + n;
     if (!t_s) return error_no_memory(error);
-    glint_status status = GLINT_OK;
     for (int k = 0; k < n; k++)
         t_s[k] = k < steps ? from_s + (to_s - from_s) * k / steps : to_s;
+    glint_status status = thin_samples(meter, (int)(steps / LEAST), t_s, &n, error);
     for (int k = 0; k < n && !status; k += TILE)
         status =
             light_meter_read(meter, t_s + k, n - k < TILE ? n - k : TILE, magnitude + k, error);
@@ -422,10 +497,8 @@ static glint_status fill_passes(const pass_search *p, const pass_span_list *span
     return failed;
 }
 
-static glint_status check_call(const glint_scenario *s, const glint_pass_options *o,
-                               glint_error *error)
+glint_status glint_passes_check(const glint_scenario *s, glint_error *error)
 {
-    enum { MOST_THREADS = 1024 };
     if (s->has_geometry)
         return error_set(error, GLINT_INPUT, (place){s->documents[0]->path, 0, 0},
                          "[geometry] gives directions, so there is no orbit to look for passes in; "
@@ -437,6 +510,15 @@ static glint_status check_call(const glint_scenario *s, const glint_pass_options
         return error_set(error, GLINT_INPUT, s->observers[0].where,
                          "no observer is a site, so there is no horizon to pass over; expected "
                          "latitude_deg and longitude_deg in [observer]");
+    return GLINT_OK;
+}
+
+static glint_status check_call(const glint_scenario *s, const glint_pass_options *o,
+                               glint_error *error)
+{
+    enum { MOST_THREADS = 1024 };
+    const glint_status status = glint_passes_check(s, error);
+    if (status) return status;
     if (o->threads < 0 || o->threads > MOST_THREADS)
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
                          "%d threads asked for; expected 1 to %d, or 0 for all processors",

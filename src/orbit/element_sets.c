@@ -152,8 +152,9 @@ static glint_status several_fit(const choice *c)
     text_printf(&message, "'%s' has element sets of several satellites%s: ", c->path,
                 c->query->name ? " of that name" : "");
     list_satellites(c, true, &message);
-    text_printf(&message, "; say which one by its %s",
-                c->query->name ? "number or designator" : "name, number or designator");
+    text_printf(&message, "; say which one by %s",
+                c->query->name ? "tle_number or tle_designator"
+                               : "tle_name, tle_number or tle_designator");
     return say(c, &message);
 }
 

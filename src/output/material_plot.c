@@ -361,6 +361,31 @@ static void write_rim(const picture *p, double level)
                 level, ORANGE);
 }
 
+/* The lowest value of a map within the range of all; where all of it is black, the lowest there is.
+ */
+static double ground_of_map(const shown *s, const range *all)
+{
+    const double low = range_of_map(s).low;
+    return isfinite(low) ? fmax(all->low, fmin(low, all->high)) : all->low;
+}
+
+/* What the top of the box stands for: more than the largest value where a map is high all around,
+ * as that of a diffuse material, whose far edge would reach into its heading. */
+static double top_of_box(const picture *p, const range *all)
+{
+    static const double HIGHEST_GROUND = 0.75; /* of the box */
+    double part = 1;
+    for (size_t k = 0; k < shown_count(p); k++) {
+        const shown s = shown_at(p, k);
+        const double ground = ground_of_map(&s, all);
+        const double at = p->view->logarithmic ? log(ground / all->low) / log(all->high / all->low)
+                                               : (ground - all->low) / (all->high - all->low);
+        part = fmax(part, at / HIGHEST_GROUND);
+    }
+    return p->view->logarithmic ? all->low * pow(all->high / all->low, part)
+                                : all->low + part * (all->high - all->low);
+}
+
 /* Height and colour tell the same, so that the scale of colours is the only axis: light colours for
  * little, from which lobes stand out. */
 static void write_map_setup(const picture *p, const range *all)
@@ -375,7 +400,7 @@ static void write_map_setup(const picture *p, const range *all)
                 "unset xtics\nunset ytics\nunset ztics\n"
                 "set colorbox user origin screen 0.90,0.2 size screen 0.015,0.6\n"
                 "set cblabel 'BRDF (1/sr)' offset 1,0\n",
-                all->low, all->low, all->high, all->low, all->high,
+                all->low, all->low, top_of_box(p, all), all->low, all->high,
                 p->view->logarithmic ? "set logscale zcb\n" : "");
 }
 
@@ -384,7 +409,7 @@ static void write_map_setup(const picture *p, const range *all)
 static void write_place(const picture *p, size_t k, size_t n)
 {
     static const double WIDTH = 1.305, HEIGHT = 0.94; /* for all maps */
-    static const double GROUND = 0.10, HEADING = 0.14, ASPECT = 1.13;
+    static const double GROUND = 0.18, HEADING = 0.14, ASPECT = 1.13;
     const size_t columns = (size_t)lround(sqrt((double)n * 1.5));
     const size_t rows = (n + columns - 1) / columns;
     const double width = WIDTH / (double)columns, height = HEIGHT / (double)rows;
@@ -427,7 +452,7 @@ static void draw_maps(const picture *p)
         const shown s = shown_at(p, k);
         write_place(p, k, n);
         write_map_title(p, &s);
-        write_rim(p, fmax(all.low, fmin(range_of_map(&s).low, all.high)));
+        write_rim(p, ground_of_map(&s, &all));
         text_printf(p->t, "splot $map%zu using 1:2:3:3 with pm3d\nunset colorbox\n", k);
     }
     text_add(p->t, "unset multiplot\n");
