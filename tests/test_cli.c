@@ -99,7 +99,7 @@ START_TEST(test_options_refuse_what_they_do_not_know)
         {{"--threads", ""}, "whole number"},
         {{"--threads", "99999999999999999999"}, "whole number"},
         {{"--format", "xml"}, "csv, json"},
-        {{"--swap", "a=b"}, "'--swap' is not built yet"},
+        {{"--swpa", "a=b"}, "did you mean '--swap'?"},
         {{"--=x"}, "unknown option '--'"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

@@ -112,6 +112,7 @@ typedef struct glint_row {
     const double *magnitude;       /* n_bands; only where flux_ratio > 0, else 0 */
     const double *share_material;  /* n_materials, of the first band's flux; all 0 when dark */
     const double *share_component; /* n_components */
+    const double *share_surface;   /* n_surfaces of glint_shares; NULL in other runs */
 } glint_row;
 
 /* An output column. */
@@ -368,6 +369,92 @@ typedef struct glint_verdict {
  * GLINT_INPUT; so is a scenario that expects nothing. verdict: NULL allowed. */
 glint_status glint_verify(const char *path, const char *const *overrides, size_t n_overrides,
                           int threads, glint_verdict *verdict, glint_errors *errors);
+
+/* ------------------------------------------------------------------- shares */
+
+/* Changes of a satellite, to see what a part of it does. Zero-initialise for none. Texts borrowed. */
+typedef struct glint_changes {
+    const char *const *swaps; /* "A=B": material B in place of A, in all components; "bus/A=B": in
+                                 that component alone, which then wins. All are made at once */
+    size_t n_swaps;
+    const char *const *without; /* names of components that are taken away, with their shadows; what
+                                   hangs on them stays where it is */
+    size_t n_without;
+} glint_changes;
+
+/* What gives the light: the shares of materials, components and surfaces over a run. */
+typedef struct glint_shares glint_shares;
+
+typedef enum glint_share_kind {
+    GLINT_SHARE_MATERIAL,
+    GLINT_SHARE_COMPONENT, /* its own facets, not those of its children */
+    GLINT_SHARE_SURFACE    /* of one material in one component, facing one way */
+} glint_share_kind;
+
+/* One of them, in the first band, over the rows with any light. All shares are 0 and magnitudes 0
+ * where there is no such row. Texts are borrowed. */
+typedef struct glint_share {
+    glint_share_kind kind;
+    const char *name;      /* of a surface "component/material/facing" */
+    const char *component; /* of a component or a surface; else "" */
+    const char *material;  /* of a material or a surface; else "" */
+    const char *facing;    /* of a surface: "+x", "(0.6, 0, 0.8)", "round"; else "" */
+    double area_m2;
+    double share_mean;        /* part of all light of the rows: sum of fluxes over sum of fluxes */
+    double share_peak;        /* part of the light at the brightest row */
+    double dominant_fraction; /* part of the rows in which it is the largest of its kind; the first
+                                 of equals */
+    int64_t rows;             /* with any light of it */
+    double magnitude_mean;    /* mean over those rows of the magnitude that it has alone */
+} glint_share;
+
+/* What a whole run came to. */
+typedef struct glint_shares_total {
+    int64_t rows, bright_rows; /* of the run; with any light */
+    double magnitude_mean, magnitude_median; /* of those */
+    double magnitude_peak;                   /* the brightest */
+    double peak_t_s;
+    glint_utc peak_utc; /* not set in [geometry] runs */
+    bool has_utc;
+    const char *band; /* the first; borrowed */
+} glint_shares_total;
+
+/* Magnitudes of the changed satellite less those of the one in the file. */
+typedef struct glint_shares_change {
+    int64_t rows;              /* in which both have light */
+    int64_t lost, gained;      /* rows in which only the one in the file has, only the changed one */
+    double mean, median, min, max; /* mag; over those rows */
+    bool has_peak;                 /* both have light at the brightest row of the one in the file */
+    double at_peak;                /* mag, there */
+    double peak;                   /* mag: brightest of the one, less brightest of the other */
+} glint_shares_change;
+
+/* Runs a scenario, and once more with the changes where there are any. changes: NULL: none. threads:
+ * 0 for all processors. progress: as of glint_table_write, NULL allowed. Errors: as
+ * glint_scenario_read and glint_curve_next; GLINT_ARGUMENT for changes that cannot be made. */
+glint_status glint_shares_find(const char *path, const char *const *overrides, size_t n_overrides,
+                               const glint_changes *changes, int threads, glint_progress *progress,
+                               void *context, glint_shares **out, glint_errors *errors);
+void glint_shares_free(glint_shares *shares);
+/* Share k from 0 of a kind, in the order of the files; false past the end. changed: of the changed
+ * satellite (false without changes). Surfaces are the same in both, in the same order: of those
+ * taken away the area is 0. */
+bool glint_shares_get(const glint_shares *shares, bool changed, glint_share_kind kind, size_t k,
+                      glint_share *out);
+/* The whole; false where changed and there are no changes. */
+bool glint_shares_whole(const glint_shares *shares, bool changed, glint_shares_total *out);
+/* What the changes did; false without changes. */
+bool glint_shares_difference(const glint_shares *shares, glint_shares_change *out);
+/* The scenario that was run, the changed one where there are changes. Borrowed. */
+const glint_scenario *glint_shares_scenario(const glint_shares *shares);
+/* Writes them as a table. path: as of glint_table_write. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
+glint_status glint_shares_write(const glint_shares *shares, glint_format format, const char *path,
+                                glint_error *error);
+/* Draws the magnitudes over time and the shares below them, piled up, of the changed satellite where
+ * there are changes; runs the curve again for it. path: as glint_plot_check takes it. Errors: the
+ * same; of glint_curve_next. */
+glint_status glint_shares_plot(const glint_shares *shares, int threads, const char *path,
+                               glint_error *error);
 
 /* -------------------------------------------------------------------- BRDFs */
 

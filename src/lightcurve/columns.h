@@ -18,8 +18,9 @@ typedef enum column_kind {
     COLUMN_ELEVATION,
     COLUMN_SUN_ELEVATION,
     COLUMN_AIRMASS,
-    COLUMN_SHARE_MATERIAL, /* index: material */
-    COLUMN_SHARE_COMPONENT /* index: component */
+    COLUMN_SHARE_MATERIAL,  /* index: material */
+    COLUMN_SHARE_COMPONENT, /* index: component */
+    COLUMN_SHARE_SURFACE    /* index: surface */
 } column_kind;
 
 typedef struct column_set {

@@ -32,6 +32,16 @@ typedef struct scenario_component {
     hinge hinge;
 } scenario_component;
 
+/* What faces one way: the facets of a component, of one material as its file has it, that look in
+ * one direction, or are curved. Numbered by facet.part. */
+typedef struct satellite_surface {
+    char *name;         /* owned: "bus/mli/+x": component, material as the file has it, facing */
+    const char *facing; /* end of the name */
+    int component;
+    const char *material; /* as it is now, after swaps; borrowed */
+    double area_m2;       /* 0 where its component was taken away */
+} satellite_surface;
+
 /* The satellite: a model file, or tables in the scenario. */
 typedef struct satellite {
     scenario_material *materials;   /* owned */
@@ -41,6 +51,8 @@ typedef struct satellite {
     int *order;                        /* owned; parents before children */
     model_material *model_materials;   /* owned; what the compiled model borrows */
     model_component *model_components; /* owned */
+    satellite_surface *surfaces;       /* owned; NULL where they are not told apart */
+    int n_surfaces;
     model model;
 } satellite;
 
@@ -177,6 +189,11 @@ struct glint_scenario {
  * reports. bands: as in the scenario. */
 glint_status scenario_read_model(const char *path, const char *const *overrides, size_t n_overrides,
                                  glint_scenario **out, glint_errors *errors);
+/* Reads a scenario whose surfaces are told apart, with changes of its satellite. changes: NULL:
+ * none. Errors as glint_scenario_read; GLINT_ARGUMENT for changes that cannot be made. */
+glint_status scenario_read_surfaces(const char *path, const char *const *overrides,
+                                    size_t n_overrides, const glint_changes *changes,
+                                    glint_scenario **out, glint_errors *errors);
 /* True when the file holds a model, not a scenario: no [time] and no [geometry], but components or
  * materials. */
 bool scenario_is_model(const toml_document *document);
