@@ -6,7 +6,7 @@
 #include "cli/report.h"
 
 static const char *const formats[] = {"csv", "json", NULL};
-enum { ALL = (1u << OPTION_COUNT) - 1 };
+static const option_set ALL = OPTION_BIT(OPTION_COUNT) - 1;
 
 /* Reads a command line that ends with NULL. */
 static glint_status read_line(const char *const *words, options *o, glint_error *error)
