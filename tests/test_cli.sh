@@ -120,15 +120,15 @@ empty "$out"
 has "$err" 'usage: glint COMMAND'
 t 'help' 0 --help
 empty "$err"
-has "$out" 'run SCENARIO' 'check FILE...' 'verify FILE...' 'shares SCENARIO' 'passes SCENARIO...' 'ephemeris SCENARIO' 'view FILE' 'brdf list' 'brdf fit DATA' '--version' 'exit status' example
-lacks "$out" compare sweep
+has "$out" 'run SCENARIO' 'check FILE...' 'verify FILE...' 'shares SCENARIO' 'compare SCENARIO' 'passes SCENARIO...' 'ephemeris SCENARIO' 'view FILE' 'brdf list' 'brdf fit DATA' '--version' 'exit status' example
+lacks "$out" sweep
 cp "$out" help
 for words in help -h 'help --help'; do
     # shellcheck disable=SC2086 # words are wanted
     t "help by '$words'" 0 $words
     holds 'the same help' cmp -s help "$out"
 done
-for command in run check verify shares passes ephemeris view 'brdf list' 'brdf show' 'brdf fit'; do
+for command in run check verify shares compare passes ephemeris view 'brdf list' 'brdf show' 'brdf fit'; do
     # shellcheck disable=SC2086
     t "help of $command" 0 $command --help
     empty "$err"
@@ -155,14 +155,14 @@ t 'a slip in a command' 2 rum plate.toml
 empty "$out"
 has "$err" "glint: error: unknown command 'rum'; did you mean 'run'?"
 t 'another word for a command' 2 xyzzy
-has "$err" "unknown command 'xyzzy'; this version has: run, check, verify, shares, passes, ephemeris, view, brdf list, brdf show, brdf fit"
-for command in compare sweep; do
+has "$err" "unknown command 'xyzzy'; this version has: run, check, verify, shares, compare, passes, ephemeris, view, brdf list, brdf show, brdf fit"
+for command in sweep; do
     # shellcheck disable=SC2086
     t "$command is not built yet" 2 $command plate.toml
     empty "$out"
-    has "$err" "'$command' is not built yet; this version has: run, check, verify, shares, passes, ephemeris, view, brdf list, brdf show, brdf fit"
+    has "$err" "'$command' is not built yet; this version has: run, check, verify, shares, compare, passes, ephemeris, view, brdf list, brdf show, brdf fit"
 done
-t 'help of a command that is not built' 2 help compare
+t 'help of a command that is not built' 2 help sweep
 t 'half a command' 2 brdf
 has "$err" "needs one more word: list, show, fit"
 t 'a group without such a member' 2 brdf lst

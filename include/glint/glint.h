@@ -581,6 +581,77 @@ glint_status glint_shares_write(const glint_shares *shares, glint_format format,
 glint_status glint_shares_plot(const glint_shares *shares, int threads, const char *path,
                                glint_error *error);
 
+/* ----------------------------------------------------------------- compare */
+
+/* A prediction beside an observed track. */
+typedef struct glint_comparison glint_comparison;
+
+typedef enum glint_observation_state {
+    GLINT_COMPARED,
+    GLINT_PREDICTED_ECLIPSED,  /* in the Earth's umbra: no light is predicted */
+    GLINT_PREDICTED_NOT_SEEN,  /* below the horizon, or behind the Earth */
+    GLINT_PREDICTED_DARK       /* nothing lit is seen */
+} glint_observation_state;
+
+/* One observation; mag, m, rad. */
+typedef struct glint_observation {
+    int line; /* of its file */
+    glint_utc utc;
+    double t_s; /* TT seconds from the start */
+    glint_observation_state state;
+    double observed, sigma; /* as in the file; sigma 0 where not said */
+    double predicted, residual; /* of the same kind of magnitude, without the fitted zero point;
+                                   observed - predicted - zero point. Where compared, else 0 */
+    double range_m, phase_rad, elevation_rad, sunlit_fraction; /* as predicted */
+    double observed_range_m, observed_phase_rad; /* as in the file; 0 and -1 where not said */
+} glint_observation;
+
+/* What a comparison came to; mag. Numbers are 0 where nothing was compared. */
+typedef struct glint_comparison_summary {
+    int64_t observations;  /* in the file */
+    int64_t compared;      /* of these; all others are counted below */
+    int64_t eclipsed, not_seen, dark;
+    int64_t outside_time, other_filter, without_magnitude;
+    int64_t penumbra;      /* compared, but in the penumbra */
+    bool fitted;           /* a zero point was fitted */
+    double zero_point;     /* that is added to the prediction: the mean of observed - predicted,
+                              weighted with 1/sigma^2 where every row has one; 0 without a fit */
+    double zero_point_sigma; /* its standard error, from the scatter or the sigmas */
+    double mean, scatter;  /* of the residuals; standard deviation about the mean, of n */
+    double rms;            /* root of the mean square of the residuals */
+    double largest;        /* residual of the largest size */
+    bool has_r;            /* there are two rows, and neither series is constant */
+    double r;              /* Pearson's correlation of observed and predicted */
+    int64_t with_sigma;
+    double chi2;           /* sum of (residual / sigma)^2 over the rows with a sigma */
+    int64_t freedom;       /* its degrees of freedom: with_sigma, less 1 with a fit */
+    bool has_chi2_relative; /* all observed magnitudes are above 0 */
+    double chi2_relative;  /* mean of residual^2 / observed, as of Fankhauser et al. 2023 */
+    int64_t with_range, with_phase; /* observations that say so */
+    double range_mean_m, range_most_m;     /* observed - predicted, of those; largest size */
+    double phase_mean_rad, phase_most_rad; /* the same */
+    const char *band, *kind, *format, *file; /* borrowed from the scenario */
+} glint_comparison_summary;
+
+/* Compares. scenario: with [observed]; must outlive *out. Errors: GLINT_INPUT (no [observed];
+ * directions are given; the orbit fails at some time), GLINT_INTERNAL. */
+glint_status glint_compare(const glint_scenario *scenario, glint_comparison **out,
+                           glint_error *error);
+void glint_comparison_free(glint_comparison *comparison);
+/* Observation k from 0, of those within [time] and with a magnitude, in the order of the file;
+ * false past the end. */
+bool glint_comparison_get(const glint_comparison *comparison, size_t k, glint_observation *out);
+void glint_comparison_total(const glint_comparison *comparison, glint_comparison_summary *out);
+/* Writes it as a table; path: as of glint_table_write. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
+glint_status glint_comparison_write(const glint_comparison *comparison, glint_format format,
+                                    const char *path, glint_error *error);
+/* Draws it. path: as glint_plot_check takes it. Errors: the same; GLINT_INPUT where there is
+ * nothing to draw. */
+glint_status glint_comparison_plot(const glint_comparison *comparison, const char *path,
+                                   glint_error *error);
+/* "compared", "eclipsed", "not-seen", "dark". */
+const char *glint_observation_state_name(glint_observation_state state);
+
 /* -------------------------------------------------------------------- BRDFs */
 
 /* A parameter of a BRDF model. */

@@ -87,6 +87,24 @@ static const command commands[] = {
      .min_operands = 1,
      .max_operands = 1,
      .run = cmd_shares},
+    {.name = "compare",
+     .arguments = "SCENARIO",
+     .summary = "hold the prediction against an observed track",
+     .details =
+         "Predicts the magnitude at every moment of the file that [observed] of SCENARIO names,\n"
+         "and writes a row for each: what was observed, what is predicted, and the difference,\n"
+         "observed less predicted. Rows in which nothing is predicted (in the Earth's shadow,\n"
+         "below the horizon, dark) are told of and left out of the numbers: rms, mean, scatter,\n"
+         "Pearson's R, chi^2. Only rows within [time] count.\n"
+         "\n"
+         "With --plot observed points, the prediction and the differences are drawn.",
+     .example = "glint compare scenarios/compare-vienna.toml --format csv -o residuals.csv",
+     .example_doc = "how far off is the prediction of a track?",
+     .formats = table_first,
+     .options = WITH_SCENARIO | BIT(OPTION_PLOT),
+     .min_operands = 1,
+     .max_operands = 1,
+     .run = cmd_compare},
     {.name = "passes",
      .arguments = "SCENARIO...",
      .summary = "find passes over the site: rise, set, shadow, brightest moment, flashes",
@@ -214,7 +232,7 @@ static const command commands[] = {
      .run = cmd_brdf_fit},
 };
 
-static const char *const planned[] = {"compare", "sweep"};
+static const char *const planned[] = {"sweep"};
 
 enum {
     N_COMMANDS = sizeof commands / sizeof *commands,

@@ -279,9 +279,10 @@ bool glint_curve_reads(const glint_curve *c, const char *path)
 {
     struct stat wanted, own;
     if (stat(path, &wanted) != 0) return false;
-    for (int i = 0; i <= c->s->n_documents; i++) {
-        const char *read =
-            i < c->s->n_documents ? c->s->documents[i]->path : c->s->expected.csv.path;
+    for (int i = 0; i <= c->s->n_documents + 1; i++) {
+        const char *read = i < c->s->n_documents    ? c->s->documents[i]->path
+                           : i == c->s->n_documents ? c->s->expected.csv.path
+                                                    : c->s->observed.path;
         if (read && stat(read, &own) == 0 && own.st_dev == wanted.st_dev &&
             own.st_ino == wanted.st_ino)
             return true;

@@ -465,7 +465,7 @@ static void read_all(reading *rd, toml_document *document)
     if (rd->status == GLINT_OK) refuse_mirrors(rd);
     s->needs_moon = !s->has_geometry && rd->status == GLINT_OK && wants_moon(s);
     read_expectations(rd, &root);
-    reader_refuse(&root, "observed", "comparing with an observed track comes later");
+    read_observed(rd, &root);
     reading_done(rd, &root);
 }
 
@@ -609,6 +609,7 @@ void glint_scenario_free(glint_scenario *s)
 {
     if (!s) return;
     expectations_free(s);
+    observed_free(&s->observed);
     satellite_free(&s->satellite);
     scenario_orbit_free(&s->orbit);
     attitude_plan_free(&s->attitude);

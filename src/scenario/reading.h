@@ -50,6 +50,9 @@ void read_model_tables(reading *rd, reader *r);
 /* Tells the surfaces apart where that is wanted, then makes the changes of the satellite. */
 void change_satellite(reading *rd, facet_list *facets);
 void read_expectations(reading *rd, reader *root);
+/* [observed], and the file that it names. After the time. */
+void read_observed(reading *rd, reader *root);
+void observed_free(observed_track *o);
 
 void satellite_free(satellite *sat);
 

@@ -137,6 +137,35 @@ typedef struct expected_table {
     double *absolute, *relative; /* owned */
 } expected_table;
 
+/* What observed magnitudes mean. */
+typedef enum observed_kind {
+    OBSERVED_APPARENT,
+    OBSERVED_AT_1000_KM,       /* as if from 1000 km, at the phase angle that it was */
+    OBSERVED_AT_1000_KM_90_DEG /* and as if at 90 deg, with the phase function of a Lambert sphere
+                                */
+} observed_kind;
+
+/* One observation. */
+typedef struct observed_row {
+    int line;              /* of the file */
+    double t_s, magnitude; /* TT s from the start */
+    double sigma;          /* mag; 0: not said */
+    double range_m, phase; /* as the observer has them, rad; 0, -1: not said */
+} observed_row;
+
+/* An observed track. */
+typedef struct observed_track {
+    char *path;         /* owned */
+    const char *format; /* "csv", ...: borrowed from the document */
+    int band;           /* of the scenario's */
+    observed_kind kind;
+    bool fit_zero_point;
+    observed_row *rows; /* owned; in the order of the file */
+    size_t n;
+    /* Rows that are not among them: */
+    int64_t other_filter, without_magnitude, outside_time;
+} observed_track;
+
 struct glint_scenario {
     toml_document **documents; /* owned; the scenario first, then what it names */
     int n_documents;
@@ -184,6 +213,8 @@ struct glint_scenario {
     int n_expectations;
     expected_table expected;
     bool has_expected_table;
+    bool has_observed;
+    observed_track observed;
     requirement *requirements; /* owned */
     int n_requirements;
 };
