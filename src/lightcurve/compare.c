@@ -49,9 +49,9 @@ static void fill(const glint_scenario *s, const observed_row *from, const glint_
         out->predicted =
             reduce(o->kind, row->magnitude[o->band], row->range_m, row->phase_angle_rad);
     else
-        out->state = row->flags & GLINT_UMBRA           ? GLINT_PREDICTED_ECLIPSED
-                     : row->flags & GLINT_BELOW_HORIZON ? GLINT_PREDICTED_NOT_SEEN
-                                                        : GLINT_PREDICTED_DARK;
+        out->state = row->flags & GLINT_UMBRA                             ? GLINT_PREDICTED_ECLIPSED
+                     : row->flags & (GLINT_BELOW_HORIZON | GLINT_BLOCKED) ? GLINT_PREDICTED_NOT_SEEN
+                                                                          : GLINT_PREDICTED_DARK;
 }
 
 /* A row with its number in the file. */
@@ -91,7 +91,7 @@ static glint_status predict(glint_comparison *c, light_meter *meter, const order
 static glint_status predict_all(glint_comparison *c, glint_error *error)
 {
     const observed_track *o = &c->s->observed;
-    watch w = {.s = c->s};
+    watch w = {.s = c->s, .viewer.observer = &c->s->observers[o->observer]};
     light_meter meter = {0};
     visibility *plan = NULL;
     ordered_row *order = calloc(o->n + 1, sizeof *order);
@@ -101,6 +101,7 @@ static glint_status predict_all(glint_comparison *c, glint_error *error)
     if (order && o->n > 1) qsort(order, o->n, sizeof *order, by_time);
     if (!status) status = tile_plan_shadows(c->s, &plan, error);
     if (!status) status = light_meter_make(&w, plan, &meter, error);
+    meter.worker.geometry.viewer = w.viewer;
     if (!status) status = predict(c, &meter, order, o->n, error);
     light_meter_free(&meter);
     visibility_free(plan);

@@ -62,6 +62,21 @@ static void read_band(reading *rd, reader *r, observed_track *o)
                 near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "");
 }
 
+/* Whose observations they are: of one observer there is no doubt. */
+static void read_observer_name(reading *rd, reader *r, observed_track *o)
+{
+    const glint_scenario *s = rd->s;
+    const char *name = NULL;
+    if (!reader_string(r, "observer", s->n_observers > 1, &name)) return;
+    for (int k = 0; k < s->n_observers; k++)
+        if (string_equal(s->observers[k].name, name)) {
+            o->observer = k;
+            return;
+        }
+    if (s->n_observers > 0)
+        reader_fail(r, reader_place(r, "observer"), "no observer is named '%.60s'", name);
+}
+
 static void read_file(reading *rd, reader *r, int format, observed_wanted *wanted,
                       observed_track *o)
 {
@@ -97,6 +112,7 @@ void read_observed(reading *rd, reader *root)
     reader_choice(&r, "magnitude", KINDS, 3, OBSERVED_APPARENT, &kind);
     o->format = FORMATS[format];
     o->kind = (observed_kind)kind;
+    read_observer_name(rd, &r, o);
     read_band(rd, &r, o);
     reader_boolean(&r, "fit_zero_point", false, &o->fit_zero_point);
     reader_string(&r, "filter", false, &wanted.filter);
