@@ -520,7 +520,7 @@ has "$out" white,1.5,0,0.2,0
 t 'a map too fine' 2 brdf show materials.toml --hemisphere 0 --step 0.1
 has "$err" 'the step is 0.1 deg'
 t 'curves in a folder that is not there' 3 brdf show materials.toml -o no/such/file.csv
-for words in 'run plate.toml' 'brdf show materials.toml'; do
+for words in 'run plate.toml' 'shares plate.toml' 'brdf show materials.toml'; do
     # shellcheck disable=SC2086
     t "$words with a picture of another kind" 2 $words --plot picture.jpg
     has "$err" 'picture.jpg' '.svg, .png or .pdf'
@@ -533,6 +533,55 @@ for words in 'run plate.toml' 'brdf show materials.toml'; do
     lines "$err" 1
     empty "$out"
 done
+
+# ------------------------------------------------------ shares and tracks
+
+t 'shares' 0 shares plate.toml
+empty "$err"
+has "$out" 'light in 2 of 3 rows' 'materials ' 'components ' 'surfaces ' '/+z'
+t 'shares as JSON' 0 shares plate.toml --format json
+has "$out" '"shares": [' '"share_mean": 1'
+t 'shares in a file' 0 shares plate.toml --format csv -o shares.csv
+empty "$out"
+has shares.csv '# %ECSV 1.0' 'kind,name,component,material,facing'
+t 'shares in a folder that is not there' 3 shares plate.toml -o no/such/file.csv
+t 'a swap without a name' 2 shares plate.toml --swap
+t 'a swap that is none' 2 shares plate.toml --swap white
+has "$err" 'expected A=B'
+empty "$out"
+t 'a swap of a material that is not there' 2 shares plate.toml --swap whit=white
+has "$err" "no material 'whit'; did you mean 'white'?"
+t 'without a component that is not there' 2 shares plate.toml --without plat
+has "$err" "there is no component 'plat'"
+t 'shares of a scenario that is not there' 1 shares nothere.toml
+track=$source/scenarios/compare-vienna.toml
+t 'a track' 0 compare -q "$track"
+empty "$err"
+has "$out" '53 of 53 observations compared' 'zero point of +0.28' 'Pearson R 0.99' 'chi^2 '
+t 'a track as CSV' 0 compare -q "$track" --format csv -o residuals.csv
+has residuals.csv '# %ECSV 1.0' 'line,utc,t_s,observed,sigma,predicted,residual,state'
+t 'a track as JSON' 0 compare -q "$track" --format json
+has "$out" '"observations_compared": [' '"rms_mag": '
+t 'a scenario without a track' 1 compare "$source/scenarios/iss-vienna.toml" -q
+has "$err" 'no [observed]'
+t 'a track in a folder that is not there' 3 compare -q "$track" -o no/such/file.csv
+t 'a picture of a track of another kind' 2 compare -q "$track" --plot picture.jpg
+cp "$source/scenarios/compare-vienna.csv" own.csv
+sed "s#\"\(iss.tle\|models/\)#\"$source/scenarios/\1#; s#compare-vienna.csv#own.csv#" "$track" >own.toml
+t 'a track that would be overwritten' 3 compare -q own.toml -o own.csv
+has "$err" 'own.csv; expected another file'
+holds 'the track as it was' cmp -s own.csv "$source/scenarios/compare-vienna.csv"
+cp plate.toml plate-copy.toml
+t 'shares over the scenario' 3 shares -q plate-copy.toml -o plate-copy.toml
+holds 'the scenario as it was' cmp -s plate.toml plate-copy.toml
+if command -v gnuplot >/dev/null; then
+    t 'a picture of shares' 0 shares -q plate.toml --plot shares.svg
+    has shares.svg '<svg' 'surface share'
+    t 'a picture of a track' 0 compare -q "$track" --plot track.svg
+    has track.svg '<svg' 'observed - predicted'
+else
+    skip 'pictures of shares and tracks' 'no gnuplot'
+fi
 
 # A Lambert surface of reflectance 0.2 and a lobe, at one incidence; the truth is among the models.
 {

@@ -321,6 +321,40 @@ START_TEST(test_compare_observations_in_any_order_and_over_days)
 }
 END_TEST
 
+/* Of two observers the track is that of the one it names, and of nobody where it names none. */
+START_TEST(test_compare_track_of_one_of_two_observers)
+{
+    static const char two[] =
+        "[[observer]]\nname = \"Graz\"\nlatitude_deg = 47.07\nlongitude_deg = 15.44\n"
+        "[[observer]]\nname = \"Vienna\"\nlatitude_deg = 48.2\nlongitude_deg = 16.37\n";
+    const rows r = sound_curve();
+    const char *all[N_PARTS];
+    for (int k = 0; k < N_PARTS; k++)
+        all[k] = SOUND[k];
+    all[PART_OBSERVER] = two;
+    write_track(&r, false);
+    for (int k = 0; k < 2; k++) {
+        char observed[256];
+        snprintf(observed, sizeof observed, "%sobserver = \"%s\"\n", CSV, k ? "Vienna" : "Graz");
+        glint_scenario *s =
+            read_sound(write_file("scenario.toml", with_part(all, PART_EXPECT, observed).text));
+        glint_comparison *c;
+        glint_comparison_summary total;
+        ck_assert_int_eq(glint_compare(s, &c, NULL), GLINT_OK);
+        glint_comparison_total(c, &total);
+        if (k == 1)
+            assert_near(total.mean, 0.4, 1e-12);
+        else
+            ck_assert(fabs(total.mean - 0.4) > 0.01); /* 140 km away */
+        glint_comparison_free(c);
+        glint_scenario_free(s);
+    }
+    const wrong_text nobody = {PART_EXPECT, "@[observed]\nfile = \"track.csv\"\n", "no 'observer'",
+                               NULL, 0};
+    assert_wrong(all, &nobody);
+}
+END_TEST
+
 /* A single observation, and a constant series: no correlation, no NaN. */
 START_TEST(test_compare_degenerate_tracks_have_no_correlation)
 {
@@ -550,6 +584,7 @@ int main(void)
     tcase_add_test(numbers, test_compare_eclipsed_observations_are_left_out);
     tcase_add_test(numbers, test_compare_counts_what_it_leaves_out);
     tcase_add_test(numbers, test_compare_observations_in_any_order_and_over_days);
+    tcase_add_test(numbers, test_compare_track_of_one_of_two_observers);
     tcase_add_test(numbers, test_compare_degenerate_tracks_have_no_correlation);
     tcase_add_checked_fixture(files, folder_make, folder_remove);
     tcase_add_test(files, test_compare_mmt_tracks);

@@ -77,6 +77,9 @@ glint_status glint_scenario_read_orbit(const char *path, const char *const *over
                                        size_t n_overrides, glint_scenario **out,
                                        glint_errors *errors);
 void glint_scenario_free(glint_scenario *scenario);
+/* True when a path names a file that the scenario was read from (itself, models, materials, expected
+ * values, observations): nothing should be written there. */
+bool glint_scenario_reads(const glint_scenario *scenario, const char *path);
 
 /* ------------------------------------------------------------- light curve */
 

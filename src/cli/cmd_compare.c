@@ -14,7 +14,8 @@ static glint_status compare(const glint_scenario *scenario, const options *o)
 {
     glint_error error = {0};
     glint_comparison *comparison = NULL;
-    glint_status status = glint_compare(scenario, &comparison, &error);
+    glint_status status = output_check(scenario, o->output, &error);
+    if (!status) status = glint_compare(scenario, &comparison, &error);
     if (!status) status = glint_comparison_write(comparison, format_of(o), o->output, &error);
     if (!status && o->plot) status = glint_comparison_plot(comparison, o->plot, &error);
     glint_comparison_free(comparison);

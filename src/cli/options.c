@@ -247,7 +247,8 @@ glint_status options_read(int n, const char *const *words, option_set accepted,
     out->operands = malloc(most * sizeof *out->operands);
     out->swaps = malloc(most * sizeof *out->swaps);
     out->without = malloc(most * sizeof *out->without);
-    if (!out->overrides || !out->operands || !out->swaps || !out->without) return error_say(error, GLINT_INTERNAL, "out of memory");
+    if (!out->overrides || !out->operands || !out->swaps || !out->without)
+        return error_say(error, GLINT_INTERNAL, "out of memory");
     bool ended = false;
     while (r.at < n) {
         const char *word = words[r.at++];

@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "glint_version.h"
 
@@ -30,8 +29,8 @@ struct glint_curve {
     int64_t next;             /* first row of the next block: observer after observer */
     glint_row *rows, *chosen; /* owned; block */
     double *flux_ratio, *magnitude, *share_material, *share_component; /* owned */
-    double *share_surface; /* owned; NULL where surfaces are not told apart */
-    coverage watched;                                                  /* measured materials */
+    double *share_surface;  /* owned; NULL where surfaces are not told apart */
+    coverage watched;       /* measured materials */
     unsigned char *outside; /* owned; block x watched.n: of coverage_mark */
     int64_t *n_outside;     /* owned; watched.n: rows handed out so far of which that holds */
     column_set columns;
@@ -66,8 +65,7 @@ static bool make_rows(glint_curve *c)
     c->outside = calloc(c->block * (size_t)c->watched.n + 1, sizeof *c->outside);
     c->n_outside = calloc((size_t)c->watched.n + 1, sizeof *c->n_outside);
     return c->outside && c->n_outside && c->rows && c->chosen && c->flux_ratio && c->magnitude &&
-           c->share_material && c->share_component &&
-           (c->share_surface || !n_surfaces);
+           c->share_material && c->share_component && (c->share_surface || !n_surfaces);
 }
 
 static bool asks_for_height(const glint_scenario *s)
@@ -190,10 +188,13 @@ static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, 
     const glint_status status =
         geometry_fill(s, c->grid, c->wanted, first, n, &w->geometry, &w->tile, w->lights, error);
     if (status) return status;
-    const photometry_rows rows = {
-        c->rows + at, c->flux_ratio + at * s->n_bands, c->magnitude + at * s->n_bands,
-        c->share_material + at * m->n_materials, c->share_component + at * m->n_components,
-        c->share_surface ? c->share_surface + at * s->satellite.n_surfaces : NULL};
+    const photometry_rows rows = {c->rows + at,
+                                  c->flux_ratio + at * s->n_bands,
+                                  c->magnitude + at * s->n_bands,
+                                  c->share_material + at * m->n_materials,
+                                  c->share_component + at * m->n_components,
+                                  c->share_surface ? c->share_surface + at * s->satellite.n_surfaces
+                                                   : NULL};
     const glint_status summed = tile_worker_sum(s, w, &rows, error);
     if (!summed && c->watched.n > 0) coverage_mark(&c->watched, w, c->outside + at * c->watched.n);
     return summed;
@@ -299,17 +300,7 @@ bool glint_curve_fact(const glint_curve *c, size_t k, const char **key, const ch
 
 bool glint_curve_reads(const glint_curve *c, const char *path)
 {
-    struct stat wanted, own;
-    if (stat(path, &wanted) != 0) return false;
-    for (int i = 0; i <= c->s->n_documents + 1; i++) {
-        const char *read = i < c->s->n_documents    ? c->s->documents[i]->path
-                           : i == c->s->n_documents ? c->s->expected.csv.path
-                                                    : c->s->observed.path;
-        if (read && stat(read, &own) == 0 && own.st_dev == wanted.st_dev &&
-            own.st_ino == wanted.st_ino)
-            return true;
-    }
-    return false;
+    return glint_scenario_reads(c->s, path);
 }
 
 const char *glint_curve_scenario(const glint_curve *c)

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 void reading_note(reading *rd, glint_status status)
 {
@@ -605,10 +606,8 @@ glint_status glint_scenario_read_orbit(const char *path, const char *const *over
                                        size_t n_overrides, glint_scenario **out,
                                        glint_errors *errors)
 {
-    reading rd = {.overrides = overrides,
-                  .n_overrides = n_overrides,
-                  .errors = errors,
-                  .orbit_only = true};
+    reading rd = {
+        .overrides = overrides, .n_overrides = n_overrides, .errors = errors, .orbit_only = true};
     return read_scenario(path, &rd, out);
 }
 
@@ -644,6 +643,21 @@ glint_status scenario_read_model(const char *path, const char *const *overrides,
         reading_done(&rd, &r);
     }
     return finish(&rd, first_error, out);
+}
+
+bool glint_scenario_reads(const glint_scenario *s, const char *path)
+{
+    struct stat wanted, own;
+    if (stat(path, &wanted) != 0) return false;
+    for (int i = 0; i < s->n_documents + 2; i++) {
+        const char *read = i < s->n_documents    ? s->documents[i]->path
+                           : i == s->n_documents ? s->expected.csv.path
+                                                 : s->observed.path;
+        if (read && stat(read, &own) == 0 && own.st_dev == wanted.st_dev &&
+            own.st_ino == wanted.st_ino)
+            return true;
+    }
+    return false;
 }
 
 bool scenario_is_model(const toml_document *document)
