@@ -6,7 +6,7 @@
 #include "cli/report.h"
 
 static const char *const formats[] = {"csv", "json", NULL};
-enum { ALL = (1u << OPTION_COUNT) - 1 };
+static const option_set ALL = OPTION_BIT(OPTION_COUNT) - 1;
 
 /* Reads a command line that ends with NULL. */
 static glint_status read_line(const char *const *words, options *o, glint_error *error)
@@ -99,7 +99,7 @@ START_TEST(test_options_refuse_what_they_do_not_know)
         {{"--threads", ""}, "whole number"},
         {{"--threads", "99999999999999999999"}, "whole number"},
         {{"--format", "xml"}, "csv, json"},
-        {{"--swap", "a=b"}, "'--swap' is not built yet"},
+        {{"--swpa", "a=b"}, "did you mean '--swap'?"},
         {{"--=x"}, "unknown option '--'"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

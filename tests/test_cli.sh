@@ -120,15 +120,15 @@ empty "$out"
 has "$err" 'usage: glint COMMAND'
 t 'help' 0 --help
 empty "$err"
-has "$out" 'run SCENARIO' 'check FILE...' 'verify FILE...' 'passes SCENARIO...' 'ephemeris SCENARIO' 'view FILE' 'brdf list' 'brdf fit DATA' '--version' 'exit status' example
-lacks "$out" shares compare sweep --swap
+has "$out" 'run SCENARIO' 'check FILE...' 'verify FILE...' 'shares SCENARIO' 'compare SCENARIO' 'passes SCENARIO...' 'ephemeris SCENARIO' 'view FILE' 'brdf list' 'brdf fit DATA' '--version' 'exit status' example
+lacks "$out" sweep
 cp "$out" help
 for words in help -h 'help --help'; do
     # shellcheck disable=SC2086 # words are wanted
     t "help by '$words'" 0 $words
     holds 'the same help' cmp -s help "$out"
 done
-for command in run check verify passes ephemeris view 'brdf list' 'brdf show' 'brdf fit'; do
+for command in run check verify shares compare passes ephemeris view 'brdf list' 'brdf show' 'brdf fit'; do
     # shellcheck disable=SC2086
     t "help of $command" 0 $command --help
     empty "$err"
@@ -155,20 +155,20 @@ t 'a slip in a command' 2 rum plate.toml
 empty "$out"
 has "$err" "glint: error: unknown command 'rum'; did you mean 'run'?"
 t 'another word for a command' 2 xyzzy
-has "$err" "unknown command 'xyzzy'; this version has: run, check, verify, passes, ephemeris, view, brdf list, brdf show, brdf fit"
-for command in shares compare sweep; do
+has "$err" "unknown command 'xyzzy'; this version has: run, check, verify, shares, compare, passes, ephemeris, view, brdf list, brdf show, brdf fit"
+for command in sweep; do
     # shellcheck disable=SC2086
     t "$command is not built yet" 2 $command plate.toml
     empty "$out"
-    has "$err" "'$command' is not built yet; this version has: run, check, verify, passes, ephemeris, view, brdf list, brdf show, brdf fit"
+    has "$err" "'$command' is not built yet; this version has: run, check, verify, shares, compare, passes, ephemeris, view, brdf list, brdf show, brdf fit"
 done
-t 'help of a command that is not built' 2 help shares
+t 'help of a command that is not built' 2 help sweep
 t 'half a command' 2 brdf
 has "$err" "needs one more word: list, show, fit"
 t 'a group without such a member' 2 brdf lst
 has "$err" "has no 'lst'; it has: list, show, fit"
-t 'an option that is not built' 2 run plate.toml --swap A=B
-has "$err" "'--swap' is not built yet; this command has: --output"
+t 'an option of another command' 2 run plate.toml --swap A=B
+has "$err" "unknown option '--swap'"
 t 'a slip in an option' 2 run plate.toml --quite
 has "$err" "did you mean '--quiet'?" "'glint run --help' says more"
 t 'an unknown letter' 2 run plate.toml -x
@@ -555,7 +555,7 @@ has "$out" white,1.5,0,0.2,0
 t 'a map too fine' 2 brdf show materials.toml --hemisphere 0 --step 0.1
 has "$err" 'the step is 0.1 deg'
 t 'curves in a folder that is not there' 3 brdf show materials.toml -o no/such/file.csv
-for words in 'run plate.toml' 'brdf show materials.toml'; do
+for words in 'run plate.toml' 'shares plate.toml' 'brdf show materials.toml'; do
     # shellcheck disable=SC2086
     t "$words with a picture of another kind" 2 $words --plot picture.jpg
     has "$err" 'picture.jpg' '.svg, .png or .pdf'
@@ -568,6 +568,55 @@ for words in 'run plate.toml' 'brdf show materials.toml'; do
     lines "$err" 1
     empty "$out"
 done
+
+# ------------------------------------------------------ shares and tracks
+
+t 'shares' 0 shares plate.toml
+empty "$err"
+has "$out" 'light in 2 of 3 rows' 'materials ' 'components ' 'surfaces ' '/+z'
+t 'shares as JSON' 0 shares plate.toml --format json
+has "$out" '"shares": [' '"share_mean": 1'
+t 'shares in a file' 0 shares plate.toml --format csv -o shares.csv
+empty "$out"
+has shares.csv '# %ECSV 1.0' 'kind,name,component,material,facing'
+t 'shares in a folder that is not there' 3 shares plate.toml -o no/such/file.csv
+t 'a swap without a name' 2 shares plate.toml --swap
+t 'a swap that is none' 2 shares plate.toml --swap white
+has "$err" 'expected A=B'
+empty "$out"
+t 'a swap of a material that is not there' 2 shares plate.toml --swap whit=white
+has "$err" "no material 'whit'; did you mean 'white'?"
+t 'without a component that is not there' 2 shares plate.toml --without plat
+has "$err" "there is no component 'plat'"
+t 'shares of a scenario that is not there' 1 shares nothere.toml
+track=$source/scenarios/compare-vienna.toml
+t 'a track' 0 compare -q "$track"
+empty "$err"
+has "$out" '53 of 53 observations compared' 'zero point of +0.28' 'Pearson R 0.99' 'chi^2 '
+t 'a track as CSV' 0 compare -q "$track" --format csv -o residuals.csv
+has residuals.csv '# %ECSV 1.0' 'line,utc,t_s,observed,sigma,predicted,residual,state'
+t 'a track as JSON' 0 compare -q "$track" --format json
+has "$out" '"observations_compared": [' '"rms_mag": '
+t 'a scenario without a track' 1 compare "$source/scenarios/iss-vienna.toml" -q
+has "$err" 'no [observed]'
+t 'a track in a folder that is not there' 3 compare -q "$track" -o no/such/file.csv
+t 'a picture of a track of another kind' 2 compare -q "$track" --plot picture.jpg
+cp "$source/scenarios/compare-vienna.csv" own.csv
+sed "s#\"\(iss.tle\|models/\)#\"$source/scenarios/\1#; s#compare-vienna.csv#own.csv#" "$track" >own.toml
+t 'a track that would be overwritten' 3 compare -q own.toml -o own.csv
+has "$err" 'own.csv; expected another file'
+holds 'the track as it was' cmp -s own.csv "$source/scenarios/compare-vienna.csv"
+cp plate.toml plate-copy.toml
+t 'shares over the scenario' 3 shares -q plate-copy.toml -o plate-copy.toml
+holds 'the scenario as it was' cmp -s plate.toml plate-copy.toml
+if command -v gnuplot >/dev/null; then
+    t 'a picture of shares' 0 shares -q plate.toml --plot shares.svg
+    has shares.svg '<svg' 'surface share'
+    t 'a picture of a track' 0 compare -q "$track" --plot track.svg
+    has track.svg '<svg' 'observed - predicted'
+else
+    skip 'pictures of shares and tracks' 'no gnuplot'
+fi
 
 # A Lambert surface of reflectance 0.2 and a lobe, at one incidence; the truth is among the models.
 {

@@ -281,6 +281,7 @@ described '`[geometry]`' "$given" "geometry.$q" "geometry.sweep.$q" "geometry={r
 described '`[[expect]]`' "$given" "expect.0.$q"
 described '`[expect_table]`' "$given" "expect_table={file=\"\",$q}"
 described '`[[require]]`' "$given" "require=[{$q}]"
+described '`[observed]`' "$iss" "observed.$q" "observed={columns={$q}}"
 described 'Hinges' "$given" "component.0.hinge={$q}" "component.0.hinge={track=\"sun\",$q}" \
     "component.0.hinge={table=\"\",$q}"
 described 'Components' "$given" "component.0.$q"
@@ -331,6 +332,7 @@ words '`[attitude]`' "$iss" attitude.law
 words '`[satellite]`' "$iss" satellite.self_shadows
 words '`[photometry]`' "$iss" photometry.system photometry.solar_disc
 words '`[output]`' "$iss" output.rows output.shares
+words '`[observed]`' "$iss" observed.format observed.magnitude
 words '`[geometry]`' "$given" geometry.sweep.plane
 words 'Primitives' "$given" component.0.plate.0.mirror
 

@@ -32,7 +32,6 @@ START_TEST(test_scenario_tables_missing_or_misnamed_are_refused)
         {PART_TOP, "photometry = @\"V\"\n", "the string \"V\"", "a table [photometry]", 0},
         {PART_TOP, "corrections = @[]\n", "an array", "a table [corrections]", 0},
         {PART_TOP, "output = @2025-07-25\n", "a date or time", "a table [output]", 0},
-        {PART_TOP, "@observed = { table = \"track.csv\" }\n", "'observed'", "not built yet", 0},
         {PART_TOP, "expect = [@1]\n", "the number 1", "tables [[expect]]", 0},
     };
     ASSERT_ALL_WRONG(SOUND, others);

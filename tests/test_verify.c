@@ -256,6 +256,37 @@ START_TEST(test_verify_requirements)
 }
 END_TEST
 
+/* Beside the white plate a grey one of three quarters of its brightness, 3/7 of the light; only the
+ * white one's component has a back. The moment of a run in time is a date. */
+START_TEST(test_verify_broken_requirement_names_the_surface_and_the_date)
+{
+    static const char grey[] = "[materials.grey]\nbrdf = \"lambert\"\nrho = 0.75\n"
+                               "[[component]]\nname = \"wing\"\n[[component.plate]]\n"
+                               "size_m = [3.1415926535897932, 1]\ncentre_m = [0, 9, 0]\n"
+                               "normal = [0, 0, 1]\ntangent = [1, 0, 0]\nmaterial = \"grey\"\n";
+    char text[1024];
+    snprintf(text, sizeof text, "@" REQUIRE "fainter_than = 3\n%s", grey);
+    const outcome plates = {
+        text,
+        1,
+        1,
+        {"most at t_s = 0 with 2.632; 57 % of its light in V comes from plate/white/+z"}};
+    assert_outcome(PLATES, &plates);
+    const outcome box = {"@" REQUIRE "fainter_than = 20\nwhen = { t_s = [30, 30] }\n",
+                         1,
+                         1,
+                         {
+                             "most at 2025-07-25T20:37:30Z with ",
+                         }};
+    assert_outcome(SOUND, &box);
+    const outcome surface = {"@" REQUIRE "fainter_than = 20\nwhen = { t_s = [30, 30] }\n",
+                             1,
+                             1,
+                             {"of its light in V comes from bus/white/"}};
+    assert_outcome(SOUND, &surface);
+}
+END_TEST
+
 /* The limit is meant for a satellite at the reference height: another may be brighter by
  * 2.5 log10(h / reference). At 780 km over the equator, h is 780 km to 1 m at the nodes. */
 START_TEST(test_verify_requirement_at_a_reference_height)
@@ -302,6 +333,7 @@ static Suite *verify_suite(void)
     tcase_add_test(all, test_verify_table_row_by_row);
     tcase_add_test(all, test_verify_table_column_that_the_run_has_not);
     tcase_add_test(all, test_verify_requirements);
+    tcase_add_test(all, test_verify_broken_requirement_names_the_surface_and_the_date);
     tcase_add_test(all, test_verify_requirement_at_a_reference_height);
     suite_add_tcase(suite, all);
     return suite;

@@ -77,6 +77,9 @@ glint_status glint_scenario_read_orbit(const char *path, const char *const *over
                                        size_t n_overrides, glint_scenario **out,
                                        glint_errors *errors);
 void glint_scenario_free(glint_scenario *scenario);
+/* True when a path names a file that the scenario was read from (itself, models, materials, expected
+ * values, observations): nothing should be written there. */
+bool glint_scenario_reads(const glint_scenario *scenario, const char *path);
 
 /* ------------------------------------------------------------- light curve */
 
@@ -120,6 +123,7 @@ typedef struct glint_row {
     const double *magnitude;       /* n_bands; only where flux_ratio > 0, else 0 */
     const double *share_material;  /* n_materials, of the first band's flux; all 0 when dark */
     const double *share_component; /* n_components */
+    const double *share_surface;   /* n_surfaces of glint_shares; NULL in other runs */
 } glint_row;
 
 /* An output column. */
@@ -531,6 +535,163 @@ typedef struct glint_verdict {
  * GLINT_INPUT; so is a scenario that expects nothing. verdict: NULL allowed. */
 glint_status glint_verify(const char *path, const char *const *overrides, size_t n_overrides,
                           int threads, glint_verdict *verdict, glint_errors *errors);
+
+/* ------------------------------------------------------------------- shares */
+
+/* Changes of a satellite, to see what a part of it does. Zero-initialise for none. Texts borrowed. */
+typedef struct glint_changes {
+    const char *const *swaps; /* "A=B": material B in place of A, in all components; "bus/A=B": in
+                                 that component alone, which then wins. All are made at once */
+    size_t n_swaps;
+    const char *const *without; /* names of components that are taken away, with their shadows; what
+                                   hangs on them stays where it is */
+    size_t n_without;
+} glint_changes;
+
+/* What gives the light: the shares of materials, components and surfaces over a run. */
+typedef struct glint_shares glint_shares;
+
+typedef enum glint_share_kind {
+    GLINT_SHARE_MATERIAL,
+    GLINT_SHARE_COMPONENT, /* its own facets, not those of its children */
+    GLINT_SHARE_SURFACE    /* of one material in one component, facing one way */
+} glint_share_kind;
+
+/* One of them, in the first band, over the rows with any light. All shares are 0 and magnitudes 0
+ * where there is no such row. Texts are borrowed. */
+typedef struct glint_share {
+    glint_share_kind kind;
+    const char *name;      /* of a surface "component/material/facing" */
+    const char *component; /* of a component or a surface; else "" */
+    const char *material;  /* of a material or a surface; else "" */
+    const char *facing;    /* of a surface: "+x", "(0.6, 0, 0.8)", "round"; else "" */
+    double area_m2;
+    double share_mean;        /* part of all light of the rows: sum of fluxes over sum of fluxes */
+    double share_peak;        /* part of the light at the brightest row */
+    double dominant_fraction; /* part of the rows in which it is the largest of its kind; the first
+                                 of equals */
+    int64_t rows;             /* with any light of it */
+    double magnitude_mean;    /* mean over those rows of the magnitude that it has alone */
+} glint_share;
+
+/* What a whole run came to. */
+typedef struct glint_shares_total {
+    int64_t rows, bright_rows; /* of the run; with any light */
+    double magnitude_mean, magnitude_median; /* of those */
+    double magnitude_peak;                   /* the brightest */
+    double peak_t_s;
+    glint_utc peak_utc; /* not set in [geometry] runs */
+    bool has_utc;
+    const char *band; /* the first; borrowed */
+} glint_shares_total;
+
+/* Magnitudes of the changed satellite less those of the one in the file. */
+typedef struct glint_shares_change {
+    int64_t rows;              /* in which both have light */
+    int64_t lost, gained;      /* rows in which only the one in the file has, only the changed one */
+    double mean, median, min, max; /* mag; over those rows */
+    bool has_peak;                 /* both have light at the brightest row of the one in the file */
+    double at_peak;                /* mag, there */
+    double peak;                   /* mag: brightest of the one, less brightest of the other */
+} glint_shares_change;
+
+/* Runs a scenario, and once more with the changes where there are any. changes: NULL: none. threads:
+ * 0 for all processors. progress: as of glint_table_write, NULL allowed. Errors: as
+ * glint_scenario_read and glint_curve_next; GLINT_ARGUMENT for changes that cannot be made. */
+glint_status glint_shares_find(const char *path, const char *const *overrides, size_t n_overrides,
+                               const glint_changes *changes, int threads, glint_progress *progress,
+                               void *context, glint_shares **out, glint_errors *errors);
+void glint_shares_free(glint_shares *shares);
+/* Share k from 0 of a kind, in the order of the files; false past the end. changed: of the changed
+ * satellite (false without changes). Surfaces are the same in both, in the same order: of those
+ * taken away the area is 0. */
+bool glint_shares_get(const glint_shares *shares, bool changed, glint_share_kind kind, size_t k,
+                      glint_share *out);
+/* The whole; false where changed and there are no changes. */
+bool glint_shares_whole(const glint_shares *shares, bool changed, glint_shares_total *out);
+/* What the changes did; false without changes. */
+bool glint_shares_difference(const glint_shares *shares, glint_shares_change *out);
+/* The scenario that was run, the changed one where there are changes. Borrowed. */
+const glint_scenario *glint_shares_scenario(const glint_shares *shares);
+/* Writes them as a table. path: as of glint_table_write. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
+glint_status glint_shares_write(const glint_shares *shares, glint_format format, const char *path,
+                                glint_error *error);
+/* Draws the magnitudes over time and the shares below them, piled up, of the changed satellite where
+ * there are changes; runs the curve again for it. path: as glint_plot_check takes it. Errors: the
+ * same; of glint_curve_next. */
+glint_status glint_shares_plot(const glint_shares *shares, int threads, const char *path,
+                               glint_error *error);
+
+/* ----------------------------------------------------------------- compare */
+
+/* A prediction beside an observed track. */
+typedef struct glint_comparison glint_comparison;
+
+typedef enum glint_observation_state {
+    GLINT_COMPARED,
+    GLINT_PREDICTED_ECLIPSED,  /* in the Earth's umbra: no light is predicted */
+    GLINT_PREDICTED_NOT_SEEN,  /* below the horizon, or behind the Earth */
+    GLINT_PREDICTED_DARK       /* nothing lit is seen */
+} glint_observation_state;
+
+/* One observation; mag, m, rad. */
+typedef struct glint_observation {
+    int line; /* of its file */
+    glint_utc utc;
+    double t_s; /* TT seconds from the start */
+    glint_observation_state state;
+    double observed, sigma; /* as in the file; sigma 0 where not said */
+    double predicted, residual; /* of the same kind of magnitude, without the fitted zero point;
+                                   observed - predicted - zero point. Where compared, else 0 */
+    double range_m, phase_rad, elevation_rad, sunlit_fraction; /* as predicted */
+    double observed_range_m, observed_phase_rad; /* as in the file; 0 and -1 where not said */
+} glint_observation;
+
+/* What a comparison came to; mag. Numbers are 0 where nothing was compared. */
+typedef struct glint_comparison_summary {
+    int64_t observations;  /* in the file */
+    int64_t compared;      /* of these; all others are counted below */
+    int64_t eclipsed, not_seen, dark;
+    int64_t outside_time, other_filter, without_magnitude;
+    int64_t penumbra;      /* compared, but in the penumbra */
+    bool fitted;           /* a zero point was fitted */
+    double zero_point;     /* that is added to the prediction: the mean of observed - predicted,
+                              weighted with 1/sigma^2 where every row has one; 0 without a fit */
+    double zero_point_sigma; /* its standard error, from the scatter or the sigmas */
+    double mean, scatter;  /* of the residuals; standard deviation about the mean, of n */
+    double rms;            /* root of the mean square of the residuals */
+    double largest;        /* residual of the largest size */
+    bool has_r;            /* there are two rows, and neither series is constant */
+    double r;              /* Pearson's correlation of observed and predicted */
+    int64_t with_sigma;
+    double chi2;           /* sum of (residual / sigma)^2 over the rows with a sigma */
+    int64_t freedom;       /* its degrees of freedom: with_sigma, less 1 with a fit */
+    bool has_chi2_relative; /* all observed magnitudes are above 0 */
+    double chi2_relative;  /* mean of residual^2 / observed, as of Fankhauser et al. 2023 */
+    int64_t with_range, with_phase; /* observations that say so */
+    double range_mean_m, range_most_m;     /* observed - predicted, of those; largest size */
+    double phase_mean_rad, phase_most_rad; /* the same */
+    const char *band, *kind, *format, *file; /* borrowed from the scenario */
+} glint_comparison_summary;
+
+/* Compares. scenario: with [observed]; must outlive *out. Errors: GLINT_INPUT (no [observed];
+ * directions are given; the orbit fails at some time), GLINT_INTERNAL. */
+glint_status glint_compare(const glint_scenario *scenario, glint_comparison **out,
+                           glint_error *error);
+void glint_comparison_free(glint_comparison *comparison);
+/* Observation k from 0, of those within [time] and with a magnitude, in the order of the file;
+ * false past the end. */
+bool glint_comparison_get(const glint_comparison *comparison, size_t k, glint_observation *out);
+void glint_comparison_total(const glint_comparison *comparison, glint_comparison_summary *out);
+/* Writes it as a table; path: as of glint_table_write. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
+glint_status glint_comparison_write(const glint_comparison *comparison, glint_format format,
+                                    const char *path, glint_error *error);
+/* Draws it. path: as glint_plot_check takes it. Errors: the same; GLINT_INPUT where there is
+ * nothing to draw. */
+glint_status glint_comparison_plot(const glint_comparison *comparison, const char *path,
+                                   glint_error *error);
+/* "compared", "eclipsed", "not-seen", "dark". */
+const char *glint_observation_state_name(glint_observation_state state);
 
 /* -------------------------------------------------------------------- BRDFs */
 

@@ -67,6 +67,45 @@ static const command commands[] = {
      .min_operands = 1,
      .max_operands = INT_MAX,
      .run = cmd_verify},
+    {.name = "shares",
+     .arguments = "SCENARIO",
+     .summary = "find which surfaces make the satellite bright, and what changes would do",
+     .details =
+         "Runs SCENARIO and writes for every material, component and surface its part of all the\n"
+         "light, its part at the brightest moment, how often it is the largest of its kind, and\n"
+         "the mean of the magnitude that it has alone, in the first band. A surface is what one\n"
+         "material in one component shows in one direction: bus/mli/+x.\n"
+         "\n"
+         "With --swap or --without the satellite is run once more with these changes, and the\n"
+         "differences are shown. What hangs on a component that is taken away stays.\n"
+         "\n"
+         "With --plot magnitudes and shares over time are drawn, of the changed satellite where\n"
+         "there are changes.",
+     .example = "glint shares scenarios/iss-vienna.toml --swap bus/mli=white-paint",
+     .example_doc = "what makes it bright, and what if the bus were painted white?",
+     .formats = table_first,
+     .options = WITH_SCENARIO | BIT(OPTION_PLOT) | BIT(OPTION_SWAP) | BIT(OPTION_WITHOUT),
+     .min_operands = 1,
+     .max_operands = 1,
+     .run = cmd_shares},
+    {.name = "compare",
+     .arguments = "SCENARIO",
+     .summary = "hold the prediction against an observed track",
+     .details =
+         "Predicts the magnitude at every moment of the file that [observed] of SCENARIO names,\n"
+         "and writes a row for each: what was observed, what is predicted, and the difference,\n"
+         "observed less predicted. Rows in which nothing is predicted (in the Earth's shadow,\n"
+         "below the horizon, dark) are told of and left out of the numbers: rms, mean, scatter,\n"
+         "Pearson's R, chi^2. Only rows within [time] count.\n"
+         "\n"
+         "With --plot observed points, the prediction and the differences are drawn.",
+     .example = "glint compare scenarios/compare-vienna.toml --format csv -o residuals.csv",
+     .example_doc = "how far off is the prediction of a track?",
+     .formats = table_first,
+     .options = WITH_SCENARIO | BIT(OPTION_PLOT),
+     .min_operands = 1,
+     .max_operands = 1,
+     .run = cmd_compare},
     {.name = "passes",
      .arguments = "SCENARIO...",
      .summary = "find passes over sites: rise, set, shadow, brightest moment, flashes",
@@ -195,7 +234,7 @@ static const command commands[] = {
      .run = cmd_brdf_fit},
 };
 
-static const char *const planned[] = {"shares", "compare", "sweep"};
+static const char *const planned[] = {"sweep"};
 
 enum {
     N_COMMANDS = sizeof commands / sizeof *commands,

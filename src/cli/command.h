@@ -41,6 +41,8 @@ void command_names(char *out, size_t size);
 glint_status cmd_run(const options *o);
 glint_status cmd_check(const options *o);
 glint_status cmd_verify(const options *o);
+glint_status cmd_compare(const options *o);
+glint_status cmd_shares(const options *o);
 glint_status cmd_passes(const options *o);
 glint_status cmd_ephemeris(const options *o);
 glint_status cmd_view(const options *o);

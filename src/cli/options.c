@@ -48,6 +48,11 @@ static const option_info table[OPTION_COUNT] = {
     [OPTION_FLASH_ANGLE] =
         {'\0', "flash-angle", "ANGLE",
          "a flash: the mirrored Sun comes nearer to the observer, deg; default 1"},
+    [OPTION_SWAP] = {'\0', "swap", "A=B",
+                     "put material B in place of A; COMPONENT/A=B: in that component alone; may be "
+                     "repeated"},
+    [OPTION_WITHOUT] = {'\0', "without", "COMPONENT",
+                        "take a component away, and its shadow; may be repeated"},
     [OPTION_AT] =
         {'\0', "at", "TIME",
          "the moment: UTC, s from the start, or the row of given directions; default: the "
@@ -69,9 +74,6 @@ static const option_info table[OPTION_COUNT] = {
     [OPTION_COMPLETION] = {'\0', "completion", "SHELL",
                            "print the completion script for SHELL: bash"},
 };
-
-/* Options of later versions: refused by name, so that nobody looks for a slip of the hand. */
-static const char *const planned[] = {"swap", "without"};
 
 const option_info *option_get(option_id id)
 {
@@ -138,6 +140,12 @@ static glint_status apply(const reader *r, option_id id, const char *value)
                              "--set has '%s'; expected KEY=VALUE, as in time.step_s=0.5", value);
         out->overrides[out->n_overrides++] = value;
         return GLINT_OK;
+    case OPTION_SWAP:
+        out->swaps[out->n_swaps++] = value;
+        return GLINT_OK;
+    case OPTION_WITHOUT:
+        out->without[out->n_without++] = value;
+        return GLINT_OK;
     case OPTION_THREADS:
         return read_threads(value, out, r->error);
     case OPTION_QUIET:
@@ -169,25 +177,11 @@ static option_id find_letter(const reader *r, char letter)
     return OPTION_COUNT;
 }
 
-static glint_status refuse_planned(const reader *r, const char *name)
-{
-    char list[256] = "";
-    for (int id = 0; id < OPTION_COUNT; id++) {
-        if (!(r->accepted >> id & 1u)) continue;
-        const size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s--%s", used ? ", " : "", table[id].name);
-    }
-    return error_say(r->error, GLINT_ARGUMENT, "'--%s' is not built yet; this command has: %s",
-                     name, list);
-}
-
 static glint_status refuse_name(const reader *r, const char *name, size_t n)
 {
     char wanted[64];
     snprintf(wanted, sizeof wanted, "%.*s", n < sizeof wanted ? (int)n : (int)sizeof wanted - 1,
              name);
-    for (size_t k = 0; k < sizeof planned / sizeof *planned; k++)
-        if (strcmp(planned[k], wanted) == 0) return refuse_planned(r, wanted);
     const char *names[OPTION_COUNT];
     size_t n_names = 0;
     for (int id = 0; id < OPTION_COUNT; id++)
@@ -251,7 +245,10 @@ glint_status options_read(int n, const char *const *words, option_set accepted,
     const size_t most = n > 0 ? (size_t)n : 1;
     out->overrides = malloc(most * sizeof *out->overrides);
     out->operands = malloc(most * sizeof *out->operands);
-    if (!out->overrides || !out->operands) return error_say(error, GLINT_INTERNAL, "out of memory");
+    out->swaps = malloc(most * sizeof *out->swaps);
+    out->without = malloc(most * sizeof *out->without);
+    if (!out->overrides || !out->operands || !out->swaps || !out->without)
+        return error_say(error, GLINT_INTERNAL, "out of memory");
     bool ended = false;
     while (r.at < n) {
         const char *word = words[r.at++];
@@ -270,6 +267,8 @@ glint_status options_read(int n, const char *const *words, option_set accepted,
 void options_free(options *o)
 {
     free(o->overrides);
+    free(o->swaps);
+    free(o->without);
     free(o->operands);
     *o = (options){0};
 }

@@ -26,6 +26,8 @@ typedef enum option_id {
     OPTION_MAX_ZENITH,
     OPTION_ANISOTROPIC,
     OPTION_FLASH_ANGLE,
+    OPTION_SWAP,
+    OPTION_WITHOUT,
     OPTION_AT,
     OPTION_FROM,
     OPTION_SUN,
@@ -72,8 +74,10 @@ typedef struct options {
     int threads;               /* 0: all processors */
     bool quiet;                /* nothing but errors on standard error */
     const char **overrides;    /* owned; "key=value" */
+    const char **swaps;        /* owned; "A=B" */
+    const char **without;      /* owned; names of components */
     const char **operands;     /* owned; what is no option */
-    size_t n_overrides, n_operands;
+    size_t n_overrides, n_swaps, n_without, n_operands;
 } options;
 
 /* Reads n words: `--name value`, `--name=value`, `-o value`, `-ovalue`, joined letters (`-qo

@@ -37,6 +37,13 @@ glint_status output_finish(output *o, glint_error *error)
     return status;
 }
 
+glint_status output_check(const glint_scenario *scenario, const char *path, glint_error *error)
+{
+    if (!path || !glint_scenario_reads(scenario, path)) return GLINT_OK;
+    return error_say(error, GLINT_OUTPUT,
+                     "the scenario is read from %s; expected another file to write to", path);
+}
+
 glint_status output_close_stdout(bool *reader_left, glint_error *error)
 {
     bool good = !ferror(stdout);

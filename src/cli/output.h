@@ -23,6 +23,10 @@ glint_status output_open(output *o, const char *path, glint_error *error);
  * written to. Errors: GLINT_OUTPUT; GLINT_INTERNAL. */
 glint_status output_finish(output *o, glint_error *error);
 
+/* Refuses to write over what a scenario is read from. path: NULL for standard output. Errors:
+ * GLINT_OUTPUT. */
+glint_status output_check(const glint_scenario *scenario, const char *path, glint_error *error);
+
 /* Flushes and closes stdout. *reader_left: as output_reader_left says before that. Errors:
  * GLINT_OUTPUT. */
 glint_status output_close_stdout(bool *reader_left, glint_error *error);

@@ -122,8 +122,8 @@ static void count(const foil *f, const facet *triangle, crinkle_sums *sums)
     sums->most_rad = fmax(sums->most_rad, tilt);
 }
 
-static glint_status add_triangle(const foil *f, int cell, int which, int component, facet_list *out,
-                                 crinkle_sums *sums, glint_error *error)
+static glint_status add_triangle(const foil *f, int cell, int which, int surface, int component,
+                                 facet_list *out, crinkle_sums *sums, glint_error *error)
 {
     const rectangle *r = f->rectangle;
     int step[3][2];
@@ -135,6 +135,8 @@ static glint_status add_triangle(const foil *f, int cell, int which, int compone
     const glint_status status =
         add_two_sided(out, corner, 3, r->tangent, r->material, r->back_material, component, error);
     if (!status) count(f, &out->items[at], sums);
+    for (int k = at; k < out->n; k++)
+        out->items[k].surface = surface;
     return status;
 }
 
@@ -151,9 +153,13 @@ glint_status rectangle_crinkle(const rectangle *r, const crinkle *c, uint64_t fa
     f.falling = malloc((size_t)n * (size_t)n * sizeof *f.falling);
     glint_status status = f.height && f.falling ? GLINT_OK : error_no_memory(error);
     if (!status) make_heights(&f, c, face);
+    curved_surface flat = {.kind = SURFACE_FOIL};
+    int surface = 0;
+    copy3(f.normal, flat.axis);
+    if (!status) status = facet_list_add_surface(out, &flat, &surface, error);
     for (int cell = 0; cell < n * n && !status; cell++)
         for (int which = 0; which < 2 && !status; which++)
-            status = add_triangle(&f, cell, which, component, out, sums, error);
+            status = add_triangle(&f, cell, which, surface, component, out, sums, error);
     free(f.height);
     free(f.falling);
     return status;

@@ -173,7 +173,7 @@ static glint_status add_pieces(maker *m)
     for (int k = 0; k < m->out->n; k++) {
         const facet *f = &m->list->items[m->first + k];
         glint_status status = GLINT_OK;
-        if (f->surface)
+        if (facet_is_curved(m->list, f))
             status = m->list->surfaces[f->surface - 1].kind == SURFACE_CONE ? add_arc(m, f)
                                                                             : add_triangles(m, f);
         if (status) return status;
@@ -263,7 +263,7 @@ static bool is_active(const curved_span *span)
 static bool has_curved(const facet_list *list, int first, int n)
 {
     for (int k = first; k < first + n; k++)
-        if (list->items[k].surface) return true;
+        if (facet_is_curved(list, &list->items[k])) return true;
     return false;
 }
 

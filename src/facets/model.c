@@ -11,38 +11,58 @@ enum { ARRAYS = 10 }; /* normal, tangent, bitangent: 3 each; area */
 
 /* --- sorting --- */
 
-/* Stable counting sort: writes the indices of `in` to `out` in rising order of the key, which is
- * the facet's component or material. count: n_keys + 1 entries of scratch. */
-static void sort_by(const facet *items, const int *in, int n, bool by_component, int *count,
-                    int n_keys, int *out)
+typedef enum sort_key { SORT_MATERIAL, SORT_PART, SORT_COMPONENT } sort_key;
+
+static int key_of(const facet *f, sort_key key)
+{
+    return key == SORT_MATERIAL ? f->material : key == SORT_PART ? f->part : f->component;
+}
+
+/* Stable counting sort: writes the indices of `in` to `out` in rising order of the key. count:
+ * n_keys + 1 entries of scratch. */
+static void sort_by(const facet *items, const int *in, int n, sort_key key, int *count, int n_keys,
+                    int *out)
 {
     memset(count, 0, ((size_t)n_keys + 1) * sizeof *count);
     for (int k = 0; k < n; k++)
-        count[(by_component ? items[k].component : items[k].material) + 1]++;
-    for (int key = 0; key < n_keys; key++)
-        count[key + 1] += count[key];
-    for (int k = 0; k < n; k++) {
-        const facet *f = &items[in[k]];
-        out[count[by_component ? f->component : f->material]++] = in[k];
-    }
+        count[key_of(&items[k], key) + 1]++;
+    for (int k = 0; k < n_keys; k++)
+        count[k + 1] += count[k];
+    for (int k = 0; k < n; k++)
+        out[count[key_of(&items[in[k]], key)]++] = in[k];
 }
 
-/* The order of the facets by component, then material, then as they came. `order` has room for n.
- */
+static int count_parts(const facet_list *facets)
+{
+    int n = 1;
+    for (int k = 0; k < facets->n; k++)
+        n = facets->items[k].part < n ? n : facets->items[k].part + 1;
+    return n;
+}
+
+static int largest(int a, int b, int c)
+{
+    return a > b ? (a > c ? a : c) : b > c ? b : c;
+}
+
+/* The order of the facets by component, then part, then material, then as they came. `order` has
+ * room for n. */
 static glint_status find_order(const facet_list *facets, int n_materials, int n_components,
                                int *order, glint_error *error)
 {
-    const int n = facets->n, most = n_materials > n_components ? n_materials : n_components;
-    int *by_material = malloc((size_t)n * sizeof *by_material);
+    const int n = facets->n, n_parts = count_parts(facets);
+    const int most = largest(n_materials, n_components, n_parts);
+    int *other = malloc((size_t)n * sizeof *other);
     int *count = malloc(((size_t)most + 1) * sizeof *count);
-    const bool ok = by_material && count;
+    const bool ok = other && count;
     if (ok) {
         for (int k = 0; k < n; k++)
-            order[k] = k;
-        sort_by(facets->items, order, n, false, count, n_materials, by_material);
-        sort_by(facets->items, by_material, n, true, count, n_components, order);
+            other[k] = k;
+        sort_by(facets->items, other, n, SORT_MATERIAL, count, n_materials, order);
+        sort_by(facets->items, order, n, SORT_PART, count, n_parts, other);
+        sort_by(facets->items, other, n, SORT_COMPONENT, count, n_components, order);
     }
-    free(by_material);
+    free(other);
     free(count);
     return ok ? GLINT_OK : error_no_memory(error);
 }
@@ -95,7 +115,7 @@ static glint_status sort_facets(const facet_list *facets, int n_materials, int n
 
 static bool same_span(const facet *a, const facet *b)
 {
-    return a->component == b->component && a->material == b->material;
+    return a->component == b->component && a->part == b->part && a->material == b->material;
 }
 
 /* Length of one array: an odd number of whole cache lines (8 doubles). Odd, so that the places of
@@ -133,6 +153,7 @@ static model_span make_span(const model *m, int first, int end)
     const double *start = m->arrays + first;
     model_span span = {.component = f->component,
                        .material = f->material,
+                       .part = f->part,
                        .first = first,
                        .n = end - first,
                        .facets = {.n = end - first, .area = start + 9 * stride}};

@@ -50,9 +50,9 @@ typedef struct source_disc {
 void source_disc_start(source_disc *disc, bool limb_darkened);
 void source_disc_set(source_disc *disc, int lane, double radius);
 
-/* Facets of one material in one component. */
+/* Facets of one material, and one part where they are told apart, in one component. */
 typedef struct model_span {
-    int component, material;
+    int component, material, part;
     int first, n;               /* facets of the model */
     brdf_facets facets;         /* borrowed from the model's arrays */
     struct curved_span *curved; /* owned; NULL where every facet counts with its own normal */
@@ -63,7 +63,7 @@ typedef struct model {
     int n_materials, n_components, n_bands, n_spans, n_facets;
     const model_material *materials;   /* borrowed */
     const model_component *components; /* borrowed */
-    model_span *spans;                 /* owned; by component, then material */
+    model_span *spans;                 /* owned; by component, then part, then material */
     facet_list polygons;               /* owned; in the same order as the arrays */
     double *arrays;                    /* owned; backs the spans */
     struct lobe_shape
@@ -72,8 +72,8 @@ typedef struct model {
     int *same_band;   /* owned; n_materials x n_bands: first band that is the same function */
 } model;
 
-/* Takes over *facets (emptied on success). Facets are sorted by component, then material, keeping
- * their order otherwise; every facet's indices must be in range. materials, components: borrowed
+/* Takes over *facets (emptied on success). Facets are sorted by component, then part, then
+ * material, keeping their order otherwise; every facet's indices must be in range. materials, components: borrowed
  * until model_free. n_bands: 1 or more, the length of every material's `bands`. Errors: GLINT_INPUT
  * when there is no facet; GLINT_INTERNAL (memory). On error *out is empty and *facets unchanged. */
 glint_status model_compile(facet_list *facets, const model_material *materials, int n_materials,

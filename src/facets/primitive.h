@@ -15,6 +15,7 @@ typedef struct facet {
     int material;                 /* index, as the caller numbers them */
     int component;                /* index, as the caller numbers them */
     int surface; /* 1 + index in facet_list.surfaces of what it stands for a piece of; 0: itself */
+    int part;    /* number of the group that sums are wanted of; 0 where they are not told apart */
     bool imported; /* from a mesh: flat facets may stand for a curve that nobody tells of */
     double normal[3], tangent[3]; /* unit, orthogonal */
     double area_m2;
@@ -24,7 +25,8 @@ typedef enum surface_kind {
     SURFACE_SPHERE,
     SURFACE_CONE, /* round about an axis, straight along it: cylinders too */
     SURFACE_PARABOLOID,
-    SURFACE_SMOOTH /* known by its normals at the vertices alone */
+    SURFACE_SMOOTH, /* known by its normals at the vertices alone */
+    SURFACE_FOIL    /* flat but crinkled: facets count with their own normals */
 } surface_kind;
 
 /* A curved surface that facets stand for: it says which way the matter under each of them looks.
@@ -32,7 +34,7 @@ typedef enum surface_kind {
 typedef struct curved_surface {
     surface_kind kind;
     double centre_m[3]; /* of a sphere; a point of a cone's axis; the vertex of a paraboloid */
-    double axis[3];     /* unit; of a paraboloid: towards its focus */
+    double axis[3];     /* unit; of a paraboloid: towards its focus; of a foil: where it faces */
     double
         radius_m; /* of a sphere; of curvature at a paraboloid's vertex: twice the focal length */
     double lean;  /* of a cone: outward normal . axis; 0 for a cylinder */
@@ -70,6 +72,12 @@ glint_status facet_list_add_surface(facet_list *list, const curved_surface *surf
  * (unit, within 90 deg of the facet's normal). Errors: GLINT_INTERNAL (memory). */
 glint_status facet_list_smooth(facet_list *list, int k, int surface, const double (*normals)[3],
                                glint_error *error);
+
+/* Whether a facet stands for a piece of something curved, and is not merely crinkled. */
+static inline bool facet_is_curved(const facet_list *list, const facet *f)
+{
+    return f->surface && list->surfaces[f->surface - 1].kind != SURFACE_FOIL;
+}
 
 /* What kind of value a key takes. */
 typedef enum primitive_key_kind {

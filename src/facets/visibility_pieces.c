@@ -422,7 +422,8 @@ static void describe_edge(const cutter *c, const sheet *s, int neighbour, visibi
     const double cosine = c->views[0].cosine[neighbour];
     out->turn_rad = angle3(f->normal, other->normal);
     if (s->from_behind ? cosine >= -BRDF_EDGE : cosine <= BRDF_EDGE) return;
-    const bool one_surface = f->surface > 0 && f->surface == other->surface;
+    const bool one_surface =
+        facet_is_curved(&c->m->polygons, f) && f->surface == other->surface;
     out->kind = one_surface || out->turn_rad < FLAT_RAD ? VISIBILITY_SMOOTH : VISIBILITY_CREASE;
 }
 

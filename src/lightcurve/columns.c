@@ -97,6 +97,10 @@ static bool add_shares(const glint_scenario *s, column_set *set)
                add(set, COLUMN_SHARE_COMPONENT, i, "share_component_", m->components[i].name, "",
                    "share of the first band's flux, without the component's children; empty when "
                    "dark");
+    for (int i = 0; i < s->satellite.n_surfaces; i++)
+        good = good && add(set, COLUMN_SHARE_SURFACE, i, "share_surface_",
+                           s->satellite.surfaces[i].name, "",
+                           "share of the first band's flux; empty when dark");
     return good;
 }
 
@@ -104,7 +108,8 @@ glint_status column_set_make(const glint_scenario *s, column_set *set, glint_err
 {
     const model *m = &s->satellite.model;
     const size_t most =
-        24 + 2 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components;
+        24 + 2 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components +
+        (size_t)s->satellite.n_surfaces;
     *set = (column_set){.columns = calloc(most, sizeof *set->columns),
                         .kinds = calloc(most, sizeof *set->kinds),
                         .indices = calloc(most, sizeof *set->indices),
@@ -195,6 +200,9 @@ bool column_value(const column_set *set, const glint_row *row, size_t column, do
         return row->flux_ratio[0] > 0;
     case COLUMN_SHARE_COMPONENT:
         *value = row->share_component[i];
+        return row->flux_ratio[0] > 0;
+    case COLUMN_SHARE_SURFACE:
+        *value = row->share_surface[i];
         return row->flux_ratio[0] > 0;
     }
     return false;

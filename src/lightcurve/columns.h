@@ -23,8 +23,9 @@ typedef enum column_kind {
     COLUMN_MOON_ELEVATION,
     COLUMN_MOON_SEPARATION,
     COLUMN_MOON_ILLUMINATED,
-    COLUMN_SHARE_MATERIAL, /* index: material */
-    COLUMN_SHARE_COMPONENT /* index: component */
+    COLUMN_SHARE_MATERIAL,  /* index: material */
+    COLUMN_SHARE_COMPONENT, /* index: component */
+    COLUMN_SHARE_SURFACE    /* index: surface */
 } column_kind;
 
 typedef struct column_set {

@@ -184,7 +184,7 @@ glint_status light_meter_make(watch *w, const visibility *plan, light_meter *out
     if (!out->rows || !out->numbers) return error_no_memory(error);
     double *magnitude = out->numbers + TILE * n_bands, *material = magnitude + TILE * n_bands;
     out->photometry = (photometry_rows){out->rows, out->numbers, magnitude, material,
-                                        material + TILE * n_materials};
+                                        material + TILE * n_materials, NULL};
     return GLINT_OK;
 }
 

@@ -17,19 +17,41 @@ double magnitude_of(double flux_ratio, double sun_magnitude)
     return sun_magnitude - 2.5 * log10(flux_ratio);
 }
 
-/* Shares of the first band's sum by material and by component, lane k; total > 0. */
-static void fill_shares(const model *m, const double *x, int k, double total,
-                        double *share_material, double *share_component)
+/* What one row's shares go to: n_materials, n_components, n_surfaces (or NULL). */
+typedef struct row_shares {
+    double *material, *component, *surface;
+} row_shares;
+
+static row_shares start_shares(const satellite *sat, const photometry_rows *out, size_t row)
 {
-    for (int span = 0; span < m->n_spans; span++) {
-        const double part = x[(size_t)span * TILE + (size_t)k];
-        share_material[m->spans[span].material] += part;
-        share_component[m->spans[span].component] += part;
+    const size_t n_materials = (size_t)sat->model.n_materials;
+    const size_t n_components = (size_t)sat->model.n_components;
+    const size_t n_surfaces = (size_t)sat->n_surfaces;
+    const row_shares to = {out->share_material + row * n_materials,
+                           out->share_component + row * n_components,
+                           out->share_surface ? out->share_surface + row * n_surfaces : NULL};
+    memset(to.material, 0, n_materials * sizeof *to.material);
+    memset(to.component, 0, n_components * sizeof *to.component);
+    if (to.surface) memset(to.surface, 0, n_surfaces * sizeof *to.surface);
+    return to;
+}
+
+/* Shares of the first band's sum by material, component and surface, lane k; total > 0. */
+static void fill_shares(const satellite *sat, const double *x, int k, double total, row_shares to)
+{
+    const model *m = &sat->model;
+    for (int s = 0; s < m->n_spans; s++) {
+        const double part = x[(size_t)s * TILE + (size_t)k];
+        to.material[m->spans[s].material] += part;
+        to.component[m->spans[s].component] += part;
+        if (to.surface) to.surface[m->spans[s].part] += part;
     }
     for (int i = 0; i < m->n_materials; i++)
-        share_material[i] /= total;
+        to.material[i] /= total;
     for (int i = 0; i < m->n_components; i++)
-        share_component[i] /= total;
+        to.component[i] /= total;
+    for (int i = 0; to.surface && i < sat->n_surfaces; i++)
+        to.surface[i] /= total;
 }
 
 /* Sum over all spans of one band, lane k, m^2/sr. */
@@ -86,10 +108,7 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
         const size_t row = (size_t)k;
         double *flux = out->flux_ratio + row * (size_t)s->n_bands;
         double *magnitude = out->magnitude + row * (size_t)s->n_bands;
-        double *material = out->share_material + row * (size_t)m->n_materials;
-        double *component = out->share_component + row * (size_t)m->n_components;
-        memset(material, 0, (size_t)m->n_materials * sizeof *material);
-        memset(component, 0, (size_t)m->n_components * sizeof *component);
+        const row_shares shares = start_shares(&s->satellite, out, row);
         const double airmass = at_site ? airmass_kasten_young(g->elevation[k]) : 0;
         const double weight =
             x && g->seen[k] ? g->sun_weight[k] / (g->range_m[k] * g->range_m[k]) : 0;
@@ -102,16 +121,16 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
             if (flux[b] > 0)
                 magnitude[b] =
                     magnitude_of(flux[b], s->sun_magnitude[b]) + s->extinction[b] * airmass;
-            if (b == 0 && flux[0] > 0 && s->shares)
-                fill_shares(m, x, k, total, material, component);
+            if (b == 0 && flux[0] > 0 && s->shares) fill_shares(&s->satellite, x, k, total, shares);
         }
         glint_row *r = &out->rows[k];
         fill_place(s, g, k, r);
         r->airmass = airmass;
         r->flux_ratio = flux;
         r->magnitude = magnitude;
-        r->share_material = material;
-        r->share_component = component;
+        r->share_material = shares.material;
+        r->share_component = shares.component;
+        r->share_surface = shares.surface;
         r->flags = flags_of(s, g, k, bright);
     }
 }

@@ -18,6 +18,8 @@ typedef struct photometry_rows {
     double *magnitude;       /* TILE x n_bands */
     double *share_material;  /* TILE x n_materials */
     double *share_component; /* TILE x n_components */
+    double *share_surface;   /* TILE x n_surfaces of the satellite; NULL where they are not told
+                                apart */
 } photometry_rows;
 
 /* Fills the rows of a tile. x: n_bands x n_spans x TILE sums in m^2/sr, or NULL where no row of the

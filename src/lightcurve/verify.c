@@ -16,7 +16,9 @@ typedef struct tally {
     int64_t selected, met;
     double worst, worst_limit; /* the brightest above its limit */
     glint_row worst_row;
+    int64_t worst_index; /* of that row, counted from 0 */
     bool any_worst;
+    char surface[192]; /* what most of the light of that row comes from; "" where not known */
 } tally;
 
 typedef struct verification {
@@ -204,8 +206,60 @@ static void hold_requirements(verification *v, const glint_row *row)
             t->worst = value;
             t->worst_limit = limit;
             t->worst_row = *row;
+            t->worst_index = v->row;
         }
     }
+}
+
+static double met_fraction(const tally *t)
+{
+    return (double)t->met / (double)t->selected;
+}
+
+static bool is_broken(const verification *v, int i)
+{
+    const tally *t = &v->tallies[i];
+    return t->selected > 0 && met_fraction(t) < v->s->requirements[i].for_fraction && t->any_worst;
+}
+
+static void name_surface(const glint_scenario *s, const glint_row *row, tally *t)
+{
+    const satellite *sat = &s->satellite;
+    int largest = 0;
+    for (int k = 1; k < sat->n_surfaces; k++)
+        if (row->share_surface[k] > row->share_surface[largest]) largest = k;
+    snprintf(t->surface, sizeof t->surface, "; %.0f %% of its light in %s comes from %s",
+             100 * row->share_surface[largest], s->bands[0]->name, sat->surfaces[largest].name);
+}
+
+/* Runs up to the last row that breaks a requirement once more, with the surfaces told apart. What
+ * fails here has not failed before, for lack of memory at most: then no surface is named. */
+static void find_surfaces(verification *v)
+{
+    int64_t last = -1;
+    for (int i = 0; i < v->s->n_requirements; i++)
+        if (is_broken(v, i) && v->tallies[i].worst_index > last) last = v->tallies[i].worst_index;
+    glint_scenario *s = NULL;
+    glint_curve *curve = NULL;
+    if (last < 0 ||
+        scenario_read_surfaces(v->s->documents[0]->path, (const char *const *)v->s->overrides,
+                               v->s->n_overrides, NULL, &s, NULL) ||
+        glint_curve_open(s, glint_curve_threads(v->curve), &curve, NULL)) {
+        glint_scenario_free(s);
+        return;
+    }
+    const glint_row *rows;
+    size_t n;
+    for (int64_t first = 0; first <= last; first += (int64_t)n) {
+        if (glint_curve_next(curve, &rows, &n, NULL) || n == 0) break;
+        for (int i = 0; i < v->s->n_requirements; i++) {
+            tally *t = &v->tallies[i];
+            if (is_broken(v, i) && t->worst_index >= first && t->worst_index < first + (int64_t)n)
+                name_surface(s, &rows[t->worst_index - first], t);
+        }
+    }
+    glint_curve_close(curve);
+    glint_scenario_free(s);
 }
 
 static void judge_requirements(verification *v)
@@ -219,7 +273,7 @@ static void judge_requirements(verification *v)
             continue;
         }
         const bool several = v->s->n_observers > 1;
-        const double fraction = (double)t->met / (double)t->selected;
+        const double fraction = met_fraction(t);
         if (fraction >= r->for_fraction) continue;
         char when[64];
         const glint_utc *u = &t->worst_row.utc;
@@ -230,10 +284,10 @@ static void judge_requirements(verification *v)
             snprintf(when, sizeof when, "t_s = %.9g", t->worst_row.t_s);
         deviate(v, r->where,
                 "%s is fainter than required in %.4g %% of %lld rows; expected %.4g %%; it breaks "
-                "its limit of %.3f most at %s%s%s with %.3f",
+                "its limit of %.3f most at %s%s%s with %.3f%s",
                 r->column, 100 * fraction, (long long)t->selected, 100 * r->for_fraction,
                 t->worst_limit, when, several ? " for " : "", several ? t->worst_row.observer : "",
-                t->worst);
+                t->worst, t->surface);
     }
 }
 
@@ -273,6 +327,7 @@ static glint_status hold_all(verification *v, glint_curve *curve)
         }
     }
     judge_missing_rows(v);
+    find_surfaces(v);
     judge_requirements(v);
     return v->status;
 }

@@ -330,11 +330,12 @@ static void add_piece(looker *l, const visibility_pieces *cut, const visibility_
 
 static void add_edge(looker *l, const visibility_edge *from)
 {
-    const facet *items = l->view->s->satellite.model.polygons.items;
+    const facet_list *polygons = &l->view->s->satellite.model.polygons;
+    const facet *items = polygons->items;
     glint_view_edge *e = &l->view->edges[l->view->n_edges++];
-    const int surface = items[from->facet].surface;
-    const bool one_surface =
-        from->neighbour >= 0 && surface > 0 && surface == items[from->neighbour].surface;
+    const bool one_surface = from->neighbour >= 0 &&
+                             facet_is_curved(polygons, &items[from->facet]) &&
+                             items[from->facet].surface == items[from->neighbour].surface;
     *e = (glint_view_edge){.is_outline = from->kind == VISIBILITY_RIM,
                            .is_smooth = one_surface || from->kind == VISIBILITY_SMOOTH,
                            .turn_rad = from->turn_rad};

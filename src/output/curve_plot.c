@@ -25,9 +25,10 @@ typedef struct extremes {
 } extremes;
 
 /* Kinds of shares, a panel each. */
-enum { BY_MATERIAL, BY_COMPONENT, N_KINDS };
-static const char *const PREFIXES[N_KINDS] = {"share_material_", "share_component_"};
-static const char *const SHARE_OF[N_KINDS] = {"material share", "component share"};
+enum { BY_MATERIAL, BY_COMPONENT, BY_SURFACE, N_KINDS };
+static const char *const PREFIXES[N_KINDS] = {"share_material_", "share_component_",
+                                              "share_surface_"};
+static const char *const SHARE_OF[N_KINDS] = {"material share", "component share", "surface share"};
 
 static const char MAGNITUDE[] = "mag_", FLUX[] = "flux_ratio_";
 
@@ -42,6 +43,7 @@ struct curve_plot {
     size_t n_stretches, n_bands, n_shares;
     size_t *band_columns;  /* owned */
     size_t *share_columns; /* owned */
+    size_t *kept;          /* owned; n_shares: scratch */
     extremes *extremes;    /* owned; n_stretches x n_bands */
     double *flux;          /* owned; n_stretches: sum over the rows of the first band's */
     double *shares;        /* owned; n_stretches x n_shares: sum of share times flux */
@@ -50,6 +52,15 @@ struct curve_plot {
 static bool begins(const char *string, const char *prefix)
 {
     return strncmp(string, prefix, strlen(prefix)) == 0;
+}
+
+/* Of a column of shares. */
+static int kind_of(const char *name)
+{
+    int kind = 0;
+    while (kind < N_KINDS - 1 && !begins(name, PREFIXES[kind]))
+        kind++;
+    return kind;
 }
 
 /* Finds the columns that are drawn: of a band, those of its magnitude and its flux ratio have the
@@ -81,11 +92,13 @@ curve_plot *curve_plot_start(const glint_curve *curve)
     p->n_stretches = (size_t)((length + p->stride - 1) / p->stride) + 1;
     p->band_columns = calloc(n + 1, sizeof *p->band_columns);
     p->share_columns = calloc(n + 1, sizeof *p->share_columns);
+    p->kept = calloc(n + 1, sizeof *p->kept);
     if (p->band_columns && p->share_columns) find_columns(p, columns, n);
     p->extremes = calloc(p->n_stretches * (p->n_bands + 1), sizeof *p->extremes);
     p->flux = calloc(p->n_stretches, sizeof *p->flux);
     p->shares = calloc(p->n_stretches * (p->n_shares + 1), sizeof *p->shares);
-    if (p->band_columns && p->share_columns && p->extremes && p->flux && p->shares) return p;
+    if (p->band_columns && p->share_columns && p->kept && p->extremes && p->flux && p->shares)
+        return p;
     curve_plot_free(p);
     return NULL;
 }
@@ -95,6 +108,7 @@ void curve_plot_free(curve_plot *p)
     if (!p) return;
     free(p->band_columns);
     free(p->share_columns);
+    free(p->kept);
     free(p->extremes);
     free(p->flux);
     free(p->shares);
@@ -340,8 +354,10 @@ static size_t longest_name(const curve_plot *p)
     const glint_column *columns = glint_curve_columns(p->curve, &n);
     for (size_t b = 0; b < p->n_bands && p->n_bands > 1; b++)
         longest = larger(longest, strlen(columns[p->band_columns[b]].name + strlen(MAGNITUDE)));
-    for (size_t s = 0; s < p->n_shares; s++) /* both prefixes have as many letters */
-        longest = larger(longest, strlen(columns[p->share_columns[s]].name + strlen(PREFIXES[0])));
+    for (size_t s = 0; s < p->n_shares; s++) {
+        const char *name = columns[p->share_columns[s]].name;
+        longest = larger(longest, strlen(name + strlen(PREFIXES[kind_of(name)])));
+    }
     return longest;
 }
 
@@ -422,21 +438,49 @@ static void write_share_panel(const curve_plot *p, int kind, size_t first, size_
     text_char(t, '\n');
 }
 
-void curve_plot_write(const curve_plot *p, text *t)
+/* Shares of a kind stand together, in the order of the kinds. */
+static size_t first_of(const size_t n_of[N_KINDS], int kind)
+{
+    size_t first = 0;
+    for (int k = 0; k < kind; k++)
+        first += n_of[k];
+    return first;
+}
+
+/* Surfaces are many, and most of them never shine: those have no place in the legend. */
+static void drop_dark_surfaces(curve_plot *p, const glint_column *columns)
+{
+    const size_t before = p->n_shares;
+    size_t kept = 0;
+    for (size_t s = 0; s < before; s++) {
+        bool lit = kind_of(columns[p->share_columns[s]].name) != BY_SURFACE;
+        for (size_t at = 0; at < p->n_stretches && !lit; at++)
+            lit = p->shares[at * before + s] > 0;
+        if (lit) p->kept[kept++] = s;
+    }
+    for (size_t s = 0; s < kept; s++)
+        p->share_columns[s] = p->share_columns[p->kept[s]];
+    for (size_t at = 0; at < p->n_stretches; at++)
+        for (size_t s = 0; s < kept; s++)
+            p->shares[at * kept + s] = p->shares[at * before + p->kept[s]];
+    p->n_shares = kept;
+}
+
+void curve_plot_write(curve_plot *p, text *t)
 {
     size_t n_columns, n_of[N_KINDS] = {0};
     const glint_column *columns = glint_curve_columns(p->curve, &n_columns);
     int panels = 1;
     bool any = false;
+    drop_dark_surfaces(p, columns);
     for (size_t s = 0; s < p->n_shares; s++)
-        n_of[begins(columns[p->share_columns[s]].name, PREFIXES[BY_MATERIAL]) ? BY_MATERIAL
-                                                                              : BY_COMPONENT]++;
+        n_of[kind_of(columns[p->share_columns[s]].name)]++;
     for (size_t b = 0; b < p->n_bands; b++)
         any = write_band(p, b, t) || any;
     for (int kind = 0; kind < N_KINDS; kind++) {
         if (n_of[kind] == 0) continue;
         panels++;
-        write_shares(p, kind, kind == BY_MATERIAL ? 0 : n_of[BY_MATERIAL], n_of[kind], t);
+        write_shares(p, kind, first_of(n_of, kind), n_of[kind], t);
     }
     write_setup(p, t);
     begin_panel(0, panels, t);
@@ -444,7 +488,7 @@ void curve_plot_write(const curve_plot *p, text *t)
     for (int kind = 0, panel = 1; kind < N_KINDS; kind++) {
         if (n_of[kind] == 0) continue;
         begin_panel(panel++, panels, t);
-        write_share_panel(p, kind, kind == BY_MATERIAL ? 0 : n_of[BY_MATERIAL], n_of[kind], t);
+        write_share_panel(p, kind, first_of(n_of, kind), n_of[kind], t);
     }
     text_add(t, "unset multiplot\n");
 }

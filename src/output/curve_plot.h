@@ -11,8 +11,8 @@ typedef struct curve_plot curve_plot;
 /* NULL when memory is out. The curve must outlive the picture. */
 curve_plot *curve_plot_start(const glint_curve *curve);
 void curve_plot_add(curve_plot *p, const glint_row *rows, size_t n);
-/* Appends the commands that draw it (plot.h). */
-void curve_plot_write(const curve_plot *p, text *script);
+/* Appends the commands that draw it (plot.h); once, at the end. */
+void curve_plot_write(curve_plot *p, text *script);
 void curve_plot_free(curve_plot *p);
 
 #endif

@@ -24,6 +24,9 @@ void satellite_free(satellite *sat)
     }
     free(sat->components);
     free(sat->order);
+    for (int k = 0; k < sat->n_surfaces; k++)
+        free(sat->surfaces[k].name);
+    free(sat->surfaces);
     model_free(&sat->model);
     free(sat->model_materials);
     free(sat->model_components);
@@ -466,6 +469,8 @@ static glint_status keep_used_materials(satellite *sat, facet_list *facets)
 static void compile(reading *rd, facet_list *facets, place where)
 {
     satellite *sat = &rd->s->satellite;
+    change_satellite(rd, facets);
+    if (rd->status) return;
     if (keep_used_materials(sat, facets)) {
         reading_no_memory(rd);
         return;

@@ -527,7 +527,7 @@ static void read_all(reading *rd, toml_document *document)
     if (rd->status == GLINT_OK) refuse_mirrors(rd);
     s->needs_moon = !s->has_geometry && rd->status == GLINT_OK && wants_moon(s);
     read_expectations(rd, &root);
-    reader_refuse(&root, "observed", "comparing with an observed track comes later");
+    read_observed(rd, &root);
     reading_done(rd, &root);
 }
 
@@ -576,42 +576,53 @@ static glint_status finish(reading *rd, size_t first_error, glint_scenario **out
     return rd->status;
 }
 
-static glint_status read_scenario(const char *path, const char *const *overrides,
-                                  size_t n_overrides, bool orbit_only, glint_scenario **out,
-                                  glint_errors *errors)
+static glint_status read_scenario(const char *path, reading *rd, glint_scenario **out)
 {
-    reading rd = {.overrides = overrides,
-                  .n_overrides = n_overrides,
-                  .errors = errors,
-                  .orbit_only = orbit_only};
-    const size_t first_error = glint_errors_count(errors);
+    const size_t first_error = glint_errors_count(rd->errors);
     toml_document *document;
     *out = NULL;
-    if (start(path, &rd, &document)) {
-        apply_overrides(&rd, document, OVERRIDE_OTHERS);
-        if (!has_model_file(document)) apply_overrides(&rd, document, OVERRIDE_MODEL);
-        if (!rd.status && scenario_is_model(document))
-            reading_note(&rd, errors_add(errors, GLINT_INPUT, document->root.where,
-                                         "this is a model file, not a scenario: it has no [time] "
-                                         "and no [geometry]; expected a scenario (a model can be "
-                                         "looked at with 'glint check')"));
-        else if (!rd.status)
-            read_all(&rd, document);
+    if (start(path, rd, &document)) {
+        apply_overrides(rd, document, OVERRIDE_OTHERS);
+        if (!has_model_file(document)) apply_overrides(rd, document, OVERRIDE_MODEL);
+        if (!rd->status && scenario_is_model(document))
+            reading_note(rd, errors_add(rd->errors, GLINT_INPUT, document->root.where,
+                                        "this is a model file, not a scenario: it has no [time] "
+                                        "and no [geometry]; expected a scenario (a model can be "
+                                        "looked at with 'glint check')"));
+        else if (!rd->status)
+            read_all(rd, document);
     }
-    return finish(&rd, first_error, out);
+    return finish(rd, first_error, out);
 }
 
 glint_status glint_scenario_read(const char *path, const char *const *overrides, size_t n_overrides,
                                  glint_scenario **out, glint_errors *errors)
 {
-    return read_scenario(path, overrides, n_overrides, false, out, errors);
+    reading rd = {.overrides = overrides, .n_overrides = n_overrides, .errors = errors};
+    return read_scenario(path, &rd, out);
 }
 
 glint_status glint_scenario_read_orbit(const char *path, const char *const *overrides,
                                        size_t n_overrides, glint_scenario **out,
                                        glint_errors *errors)
 {
-    return read_scenario(path, overrides, n_overrides, true, out, errors);
+    reading rd = {
+        .overrides = overrides, .n_overrides = n_overrides, .errors = errors, .orbit_only = true};
+    return read_scenario(path, &rd, out);
+}
+
+glint_status scenario_read_surfaces(const char *path, const char *const *overrides,
+                                    size_t n_overrides, const glint_changes *changes,
+                                    glint_scenario **out, glint_errors *errors)
+{
+    reading rd = {.overrides = overrides,
+                  .n_overrides = n_overrides,
+                  .errors = errors,
+                  .by_surface = true,
+                  .changes = changes};
+    const glint_status status = read_scenario(path, &rd, out);
+    if (!status) (*out)->shares = SHARES_MATERIAL | SHARES_COMPONENT;
+    return status;
 }
 
 glint_status scenario_read_model(const char *path, const char *const *overrides, size_t n_overrides,
@@ -632,6 +643,11 @@ glint_status scenario_read_model(const char *path, const char *const *overrides,
         reading_done(&rd, &r);
     }
     return finish(&rd, first_error, out);
+}
+
+bool glint_scenario_reads(const glint_scenario *s, const char *path)
+{
+    return file_list_has(&s->files, path);
 }
 
 bool scenario_is_model(const toml_document *document)
@@ -659,6 +675,7 @@ void glint_scenario_free(glint_scenario *s)
 {
     if (!s) return;
     expectations_free(s);
+    observed_free(&s->observed);
     satellite_free(&s->satellite);
     scenario_orbit_free(&s->orbit);
     attitude_plan_free(&s->attitude);

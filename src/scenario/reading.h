@@ -14,6 +14,8 @@ typedef struct reading {
     glint_errors *errors;
     glint_status status;   /* the worst so far */
     bool orbit_only;       /* [attitude] and the satellite may be absent */
+    bool by_surface;       /* surfaces are told apart */
+    const glint_changes *changes; /* of the satellite; NULL: none */
     measured_cache tables; /* files of measured BRDFs; ended where the materials end */
 } reading;
 
@@ -49,7 +51,12 @@ void read_hinge(reading *rd, const toml_node *table, hinge *out);
 void read_geometry(reading *rd, const toml_node *table);
 /* The tables of a model: materials_from, materials, component. */
 void read_model_tables(reading *rd, reader *r);
+/* Tells the surfaces apart where that is wanted, then makes the changes of the satellite. */
+void change_satellite(reading *rd, facet_list *facets);
 void read_expectations(reading *rd, reader *root);
+/* [observed], and the file that it names. After the time. */
+void read_observed(reading *rd, reader *root);
+void observed_free(observed_track *o);
 
 void satellite_free(satellite *sat);
 

@@ -39,6 +39,16 @@ typedef struct scenario_component {
     char *report; /* owned; lines on what its primitives became, for people; NULL: none */
 } scenario_component;
 
+/* What faces one way: the facets of a component, of one material as its file has it, that look in
+ * one direction, or are curved. Numbered by facet.part. */
+typedef struct satellite_surface {
+    char *name;         /* owned: "bus/mli/+x": component, material as the file has it, facing */
+    const char *facing; /* end of the name */
+    int component;
+    const char *material; /* as it is now, after swaps; borrowed */
+    double area_m2;       /* 0 where its component was taken away */
+} satellite_surface;
+
 /* The satellite: a model file, or tables in the scenario. */
 typedef struct satellite {
     scenario_material *materials;   /* owned */
@@ -48,6 +58,8 @@ typedef struct satellite {
     int *order;                        /* owned; parents before children */
     model_material *model_materials;   /* owned; what the compiled model borrows */
     model_component *model_components; /* owned */
+    satellite_surface *surfaces;       /* owned; NULL where they are not told apart */
+    int n_surfaces;
     model model;
 } satellite;
 
@@ -161,6 +173,35 @@ typedef struct expected_table {
     double *absolute, *relative; /* owned */
 } expected_table;
 
+/* What observed magnitudes mean. */
+typedef enum observed_kind {
+    OBSERVED_APPARENT,
+    OBSERVED_AT_1000_KM,       /* as if from 1000 km, at the phase angle that it was */
+    OBSERVED_AT_1000_KM_90_DEG /* and as if at 90 deg, with the phase function of a Lambert sphere
+                                */
+} observed_kind;
+
+/* One observation. */
+typedef struct observed_row {
+    int line;              /* of the file */
+    double t_s, magnitude; /* TT s from the start */
+    double sigma;          /* mag; 0: not said */
+    double range_m, phase; /* as the observer has them, rad; 0, -1: not said */
+} observed_row;
+
+/* An observed track. */
+typedef struct observed_track {
+    char *path;         /* owned */
+    const char *format; /* "csv", ...: borrowed from the document */
+    int observer, band; /* of the scenario's */
+    observed_kind kind;
+    bool fit_zero_point;
+    observed_row *rows; /* owned; in the order of the file */
+    size_t n;
+    /* Rows that are not among them: */
+    int64_t other_filter, without_magnitude, outside_time;
+} observed_track;
+
 struct glint_scenario {
     toml_document **documents; /* owned; the scenario first, then what it names */
     int n_documents;
@@ -214,6 +255,8 @@ struct glint_scenario {
     int n_expectations;
     expected_table expected;
     bool has_expected_table;
+    bool has_observed;
+    observed_track observed;
     requirement *requirements; /* owned */
     int n_requirements;
 };
@@ -222,6 +265,11 @@ struct glint_scenario {
  * reports. bands: as in the scenario. */
 glint_status scenario_read_model(const char *path, const char *const *overrides, size_t n_overrides,
                                  glint_scenario **out, glint_errors *errors);
+/* Reads a scenario whose surfaces are told apart, with changes of its satellite. changes: NULL:
+ * none. Errors as glint_scenario_read; GLINT_ARGUMENT for changes that cannot be made. */
+glint_status scenario_read_surfaces(const char *path, const char *const *overrides,
+                                    size_t n_overrides, const glint_changes *changes,
+                                    glint_scenario **out, glint_errors *errors);
 /* True when the file holds a model, not a scenario: no [time] and no [geometry], but components or
  * materials. */
 bool scenario_is_model(const toml_document *document);

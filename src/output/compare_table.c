@@ -1,0 +1,387 @@
+/* compare_table.c: a prediction beside an observed track: as a table for people, as CSV with an
+ * ECSV header, as JSON, as a picture. */
+#include "output/ecsv.h"
+#include "output/json.h"
+#include "output/plot.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double DEGREES = 57.295779513082320877; /* per rad */
+
+static void add_utc(text *t, const glint_utc *u)
+{
+    text_printf(t, "%04d-%02d-%02dT%02d:%02d:%02d.%06dZ", u->year, u->month, u->day, u->hour,
+                u->minute, u->second, u->microsecond);
+}
+
+/* A number of the whole; it is there or not. */
+typedef struct fact {
+    const char *key;
+    double value;
+    bool there;
+} fact;
+
+enum { N_FACTS = 26 };
+
+static void list_facts(const glint_comparison_summary *s, fact out[N_FACTS])
+{
+    const bool any = s->compared > 0;
+    const fact facts[N_FACTS] = {
+        {"observations", (double)s->observations, true},
+        {"compared", (double)s->compared, true},
+        {"eclipsed", (double)s->eclipsed, true},
+        {"not_seen", (double)s->not_seen, true},
+        {"dark", (double)s->dark, true},
+        {"outside_time", (double)s->outside_time, true},
+        {"other_filter", (double)s->other_filter, true},
+        {"without_magnitude", (double)s->without_magnitude, true},
+        {"penumbra", (double)s->penumbra, true},
+        {"zero_point_mag", s->zero_point, any && s->fitted},
+        {"zero_point_sigma_mag", s->zero_point_sigma, any && s->fitted},
+        {"mean_mag", s->mean, any},
+        {"scatter_mag", s->scatter, any},
+        {"rms_mag", s->rms, any},
+        {"largest_mag", s->largest, any},
+        {"r", s->r, s->has_r},
+        {"chi2", s->chi2, s->with_sigma > 0},
+        {"chi2_rows", (double)s->with_sigma, s->with_sigma > 0},
+        {"chi2_freedom", (double)s->freedom, s->with_sigma > 0},
+        {"chi2_relative_mag", s->chi2_relative, any && s->has_chi2_relative},
+        {"with_range", (double)s->with_range, s->with_range > 0},
+        {"range_mean_km", s->range_mean_m * 1e-3, s->with_range > 0},
+        {"range_most_km", s->range_most_m * 1e-3, s->with_range > 0},
+        {"with_phase", (double)s->with_phase, s->with_phase > 0},
+        {"phase_mean_deg", s->phase_mean_rad * DEGREES, s->with_phase > 0},
+        {"phase_most_deg", s->phase_most_rad * DEGREES, s->with_phase > 0},
+    };
+    for (size_t k = 0; k < N_FACTS; k++)
+        out[k] = facts[k];
+}
+
+/* --------------------------------------------------------------- for people */
+
+static void people_left_out(const glint_comparison_summary *s, text *t)
+{
+    const struct {
+        int64_t n;
+        const char *why;
+    } all[] = {{s->eclipsed, "are predicted in the Earth's shadow"},
+               {s->not_seen, "are predicted below the horizon"},
+               {s->dark, "are predicted dark"},
+               {s->outside_time, "lie outside of [time]"},
+               {s->other_filter, "have another filter"},
+               {s->without_magnitude, "have no magnitude"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if (all[k].n > 0)
+            text_printf(t, "%lld observations %s and are left out\n", (long long)all[k].n,
+                        all[k].why);
+    if (s->penumbra > 0)
+        text_printf(t, "%lld observations were compared in the penumbra\n", (long long)s->penumbra);
+}
+
+static void people_numbers(const glint_comparison_summary *s, text *t)
+{
+    text_printf(t,
+                "%lld of %lld observations compared, band %s, magnitudes %s, observed less "
+                "predicted\n",
+                (long long)s->compared, (long long)s->observations, s->band, s->kind);
+    people_left_out(s, t);
+    if (s->compared > 0) {
+        text_printf(t, "mean %+.4f, scatter %.4f, rms %.4f, largest %+.4f mag\n", s->mean,
+                    s->scatter, s->rms, s->largest);
+        if (s->fitted)
+            text_printf(t, "after a zero point of %+.4f +- %.4f mag, which was fitted\n",
+                        s->zero_point, s->zero_point_sigma);
+    }
+    if (s->has_r) text_printf(t, "Pearson R %.4f\n", s->r);
+    if (s->with_sigma > 0)
+        text_printf(t, "chi^2 %.4f of %lld rows, %lld degrees of freedom\n", s->chi2,
+                    (long long)s->with_sigma, (long long)s->freedom);
+    if (s->compared > 0 && s->has_chi2_relative)
+        text_printf(t, "mean square over observed magnitude %.4f mag\n", s->chi2_relative);
+    if (s->with_range > 0)
+        text_printf(t, "range, observed less predicted: mean %+.3f, largest %+.3f km\n",
+                    s->range_mean_m * 1e-3, s->range_most_m * 1e-3);
+    if (s->with_phase > 0)
+        text_printf(t, "phase angle, observed less predicted: mean %+.3f, largest %+.3f deg\n",
+                    s->phase_mean_rad * DEGREES, s->phase_most_rad * DEGREES);
+}
+
+static void write_people(const glint_comparison *c, const glint_comparison_summary *s, text *t)
+{
+    glint_observation o;
+    people_numbers(s, t);
+    text_printf(t, "\n%-27s %8s %7s %9s %9s %10s %7s  %s\n", "UTC", "observed", "sigma",
+                "predicted", "residual", "range km", "phase", "");
+    for (size_t k = 0; glint_comparison_get(c, k, &o); k++) {
+        add_utc(t, &o.utc);
+        text_printf(t, " %8.3f", o.observed);
+        if (o.sigma > 0)
+            text_printf(t, " %7.3f", o.sigma);
+        else
+            text_printf(t, " %7s", "-");
+        if (o.state == GLINT_COMPARED)
+            text_printf(t, " %9.3f %+9.3f", o.predicted + s->zero_point, o.residual);
+        else
+            text_printf(t, " %9s %9s", "-", "-");
+        text_printf(t, " %10.3f %7.2f%s%s\n", o.range_m * 1e-3, o.phase_rad * DEGREES,
+                    o.state == GLINT_COMPARED ? "" : "  ",
+                    o.state == GLINT_COMPARED ? "" : glint_observation_state_name(o.state));
+    }
+}
+
+/* ---------------------------------------------------------------------- CSV */
+
+static const glint_column COLUMNS[] = {
+    {"line", "", "of the file of observations", false},
+    {"utc", "", "UTC of reception at the observer", true},
+    {"t_s", "s", "TT seconds from the start", false},
+    {"observed", "mag", "as in the file", false},
+    {"sigma", "mag", "as in the file; empty where not said", false},
+    {"predicted", "mag", "with the fitted zero point; empty where nothing is predicted", false},
+    {"residual", "mag", "observed - predicted", false},
+    {"state", "", "compared, eclipsed, not-seen or dark", true},
+    {"range_km", "km", "predicted", false},
+    {"phase_angle_deg", "deg", "predicted", false},
+    {"elevation_deg", "deg", "predicted", false},
+    {"sunlit_fraction", "", "predicted", false},
+    {"observed_range_km", "km", "as in the file", false},
+    {"observed_phase_deg", "deg", "as in the file", false},
+};
+
+enum { N_COLUMNS = sizeof COLUMNS / sizeof *COLUMNS };
+
+static void csv_cell(text *t, bool there, double value)
+{
+    text_char(t, ',');
+    if (there) text_double(t, value);
+}
+
+static void csv_row(const glint_observation *o, double zero_point, text *t)
+{
+    const bool compared = o->state == GLINT_COMPARED;
+    text_printf(t, "%d,", o->line);
+    add_utc(t, &o->utc);
+    csv_cell(t, true, o->t_s);
+    csv_cell(t, true, o->observed);
+    csv_cell(t, o->sigma > 0, o->sigma);
+    csv_cell(t, compared, o->predicted + zero_point);
+    csv_cell(t, compared, o->residual);
+    text_printf(t, ",%s", glint_observation_state_name(o->state));
+    csv_cell(t, true, o->range_m * 1e-3);
+    csv_cell(t, true, o->phase_rad * DEGREES);
+    csv_cell(t, true, o->elevation_rad * DEGREES);
+    csv_cell(t, true, o->sunlit_fraction);
+    csv_cell(t, o->observed_range_m > 0, o->observed_range_m * 1e-3);
+    csv_cell(t, o->observed_phase_rad >= 0, o->observed_phase_rad * DEGREES);
+    text_char(t, '\n');
+}
+
+static void csv_facts(const glint_comparison_summary *s, text *t)
+{
+    fact facts[N_FACTS];
+    list_facts(s, facts);
+    ecsv_fact(t, "glint_version", glint_version());
+    ecsv_fact(t, "file", s->file);
+    ecsv_fact(t, "format", s->format);
+    ecsv_fact(t, "magnitude", s->kind);
+    ecsv_fact(t, "band", s->band);
+    for (size_t k = 0; k < N_FACTS; k++) {
+        if (!facts[k].there) continue;
+        text number = {0};
+        text_double(&number, facts[k].value);
+        if (number.failed)
+            t->failed = true;
+        else
+            ecsv_fact(t, facts[k].key, number.data);
+        text_free(&number);
+    }
+}
+
+static void write_csv(const glint_comparison *c, const glint_comparison_summary *s, text *t)
+{
+    glint_observation o;
+    ecsv_begin(t, COLUMNS, N_COLUMNS);
+    csv_facts(s, t);
+    ecsv_end(t, COLUMNS, N_COLUMNS);
+    for (size_t k = 0; glint_comparison_get(c, k, &o); k++)
+        csv_row(&o, s->zero_point, t);
+}
+
+/* --------------------------------------------------------------------- JSON */
+
+static void json_row(const glint_observation *o, double zero_point, json *j)
+{
+    text utc = {0};
+    add_utc(&utc, &o->utc);
+    json_object(j, NULL);
+    json_number(j, "line", o->line);
+    if (utc.failed)
+        j->out->failed = true;
+    else
+        json_string(j, "utc", utc.data);
+    json_number(j, "t_s", o->t_s);
+    json_string(j, "state", glint_observation_state_name(o->state));
+    json_number(j, "observed", o->observed);
+    if (o->sigma > 0) json_number(j, "sigma", o->sigma);
+    if (o->state == GLINT_COMPARED) {
+        json_number(j, "predicted", o->predicted + zero_point);
+        json_number(j, "residual", o->residual);
+    }
+    json_number(j, "range_km", o->range_m * 1e-3);
+    json_number(j, "phase_angle_deg", o->phase_rad * DEGREES);
+    json_number(j, "elevation_deg", o->elevation_rad * DEGREES);
+    json_number(j, "sunlit_fraction", o->sunlit_fraction);
+    if (o->observed_range_m > 0) json_number(j, "observed_range_km", o->observed_range_m * 1e-3);
+    if (o->observed_phase_rad >= 0)
+        json_number(j, "observed_phase_deg", o->observed_phase_rad * DEGREES);
+    json_end(j, '}');
+    text_free(&utc);
+}
+
+static void write_json(const glint_comparison *c, const glint_comparison_summary *s, text *t)
+{
+    fact facts[N_FACTS];
+    glint_observation o;
+    json j = {.out = t};
+    list_facts(s, facts);
+    json_object(&j, NULL);
+    json_string(&j, "glint_version", glint_version());
+    json_string(&j, "file", s->file);
+    json_string(&j, "format", s->format);
+    json_string(&j, "magnitude", s->kind);
+    json_string(&j, "band", s->band);
+    for (size_t k = 0; k < N_FACTS; k++)
+        if (facts[k].there) json_number(&j, facts[k].key, facts[k].value);
+    json_list(&j, "observations_compared");
+    for (size_t k = 0; glint_comparison_get(c, k, &o); k++)
+        json_row(&o, s->zero_point, &j);
+    json_end(&j, ']');
+    json_end(&j, '}');
+}
+
+glint_status glint_comparison_write(const glint_comparison *c, glint_format format,
+                                    const char *path, glint_error *error)
+{
+    glint_comparison_summary total;
+    glint_comparison_total(c, &total);
+    text t = {0};
+    if (format == GLINT_FORMAT_TABLE)
+        write_people(c, &total, &t);
+    else if (format == GLINT_FORMAT_CSV)
+        write_csv(c, &total, &t);
+    else
+        write_json(c, &total, &t);
+    const glint_status status =
+        t.failed ? error_no_memory(error) : glint_text_write(path, t.data, t.length, error);
+    text_free(&t);
+    return status;
+}
+
+/* ------------------------------------------------------------------ picture */
+
+/* Compared observations, in the order of time. */
+static int in_time(const void *a, const void *b)
+{
+    const glint_observation *x = a, *y = b;
+    if (x->t_s != y->t_s) return x->t_s < y->t_s ? -1 : 1;
+    return (x->line > y->line) - (x->line < y->line);
+}
+
+static glint_observation *compared_in_time(const glint_comparison *c, size_t *n)
+{
+    size_t all = 0;
+    glint_observation o;
+    while (glint_comparison_get(c, all, &o))
+        all++;
+    glint_observation *items = calloc(all + 1, sizeof *items);
+    *n = 0;
+    for (size_t k = 0; items && k < all; k++) {
+        glint_comparison_get(c, k, &o);
+        if (o.state == GLINT_COMPARED) items[(*n)++] = o;
+    }
+    if (items && *n > 1) qsort(items, *n, sizeof *items, in_time);
+    return items;
+}
+
+/* Blocks of points: t, observed, sigma, residual; and t, predicted, with a blank line where the
+ * track is interrupted: for ten times the mean step, and 10 s. */
+static void write_points(const glint_observation *items, size_t n, double zero_point, text *t)
+{
+    static const double MEAN_STEPS = 10, LEAST_S = 10;
+    const double span_s = items[n - 1].t_s - items[0].t_s;
+    const double gap_s = fmax(LEAST_S, n > 1 ? MEAN_STEPS * span_s / (double)(n - 1) : 0);
+    text_add(t, "$observed << end\n");
+    for (size_t k = 0; k < n; k++)
+        text_printf(t, "%.6f %.5f %.5f %.5f\n", items[k].t_s - items[0].t_s, items[k].observed,
+                    items[k].sigma, items[k].residual);
+    text_add(t, "end\n$predicted << end\n");
+    for (size_t k = 0; k < n; k++) {
+        if (k > 0 && items[k].t_s - items[k - 1].t_s > gap_s) text_char(t, '\n');
+        text_printf(t, "%.6f %.5f\n", items[k].t_s - items[0].t_s, items[k].predicted + zero_point);
+    }
+    text_add(t, "end\n");
+}
+
+static void write_script(const glint_observation *items, size_t n,
+                         const glint_comparison_summary *s, text *t)
+{
+    text title = {0}, axis = {0};
+    text_printf(&title, "rms %.3f mag", s->rms);
+    if (s->has_r) text_printf(&title, ", R %.3f", s->r);
+    if (s->fitted) text_printf(&title, ", zero point %+.3f mag", s->zero_point);
+    text_add(&axis, "s since ");
+    add_utc(&axis, &items[0].utc);
+    write_points(items, n, s->zero_point, t);
+    text_add(t, "set grid lt 1 lc rgb '#d8d8d8' lw 1 dt solid\nset border lc rgb '#444444'\n"
+                "set lmargin 10\nset rmargin 4\nset tics nomirror\nset multiplot title ");
+    plot_quote(t, title.failed ? "" : title.data);
+    text_printf(t,
+                " noenhanced\nset tmargin at screen 0.91\nset bmargin at screen 0.40\n"
+                "set format x ''\nset yrange [*:*] reverse\nset ylabel 'magnitude %s' noenhanced\n"
+                "set offsets 0,0,graph 0.05,graph 0.05\nset key bottom left\n",
+                s->band);
+    text_add(t, "plot $observed using 1:2:($3 > 0 ? $3 : NaN) with yerrorbars pt 7 ps 0 lc rgb "
+                "'#b0b0b0' notitle, "
+                "$observed using 1:2 with points pt 7 ps 0.5 lc rgb '#c0392b' title 'observed', "
+                "$predicted using 1:2 with lines lw 2 lc rgb '#1f4e79' title 'predicted', "
+                "$predicted using 1:2 with points pt 7 ps 0.2 lc rgb '#1f4e79' notitle\n"
+                "set tmargin at screen 0.36\nset bmargin at screen 0.12\nset format x '%g'\n"
+                "set yrange [*:*] noreverse\nset ylabel 'observed - predicted'\nunset key\n"
+                "set xlabel ");
+    plot_quote(t, axis.failed ? "" : axis.data);
+    text_add(t, " noenhanced\n"
+                "plot 0 with lines lc rgb '#1f4e79' lw 1, $observed using 1:4 with points pt 7 "
+                "ps 0.5 lc rgb '#c0392b'\nunset multiplot\n");
+    t->failed = t->failed || title.failed || axis.failed;
+    text_free(&title);
+    text_free(&axis);
+}
+
+glint_status glint_comparison_plot(const glint_comparison *c, const char *path, glint_error *error)
+{
+    glint_comparison_summary total;
+    plot *picture;
+    size_t n;
+    text script = {0};
+    glint_comparison_total(c, &total);
+    glint_status status = plot_open(path, &picture, error);
+    if (status) return status;
+    glint_observation *items = compared_in_time(c, &n);
+    if (!items)
+        status = error_no_memory(error);
+    else if (n == 0)
+        status = error_set(error, GLINT_INPUT, (place){total.file, 0, 0},
+                           "no observation could be compared, so there is nothing to draw");
+    else
+        write_script(items, n, &total, &script);
+    if (!status && script.failed) status = error_no_memory(error);
+    if (status)
+        plot_abandon(picture);
+    else
+        status = plot_finish(picture, script.data, script.length, error);
+    text_free(&script);
+    free(items);
+    return status;
+}
