@@ -120,15 +120,15 @@ empty "$out"
 has "$err" 'usage: glint COMMAND'
 t 'help' 0 --help
 empty "$err"
-has "$out" 'run SCENARIO' 'check FILE...' 'verify FILE...' 'passes SCENARIO...' 'ephemeris SCENARIO' 'brdf list' 'brdf fit DATA' '--version' 'exit status' example
-lacks "$out" shares compare view sweep --swap
+has "$out" 'run SCENARIO' 'check FILE...' 'verify FILE...' 'passes SCENARIO...' 'ephemeris SCENARIO' 'view FILE' 'brdf list' 'brdf fit DATA' '--version' 'exit status' example
+lacks "$out" shares compare sweep --swap
 cp "$out" help
 for words in help -h 'help --help'; do
     # shellcheck disable=SC2086 # words are wanted
     t "help by '$words'" 0 $words
     holds 'the same help' cmp -s help "$out"
 done
-for command in run check verify passes ephemeris 'brdf list' 'brdf show' 'brdf fit'; do
+for command in run check verify passes ephemeris view 'brdf list' 'brdf show' 'brdf fit'; do
     # shellcheck disable=SC2086
     t "help of $command" 0 $command --help
     empty "$err"
@@ -155,12 +155,12 @@ t 'a slip in a command' 2 rum plate.toml
 empty "$out"
 has "$err" "glint: error: unknown command 'rum'; did you mean 'run'?"
 t 'another word for a command' 2 xyzzy
-has "$err" "unknown command 'xyzzy'; this version has: run, check, verify, passes, ephemeris, brdf list, brdf show, brdf fit"
-for command in shares compare view sweep; do
+has "$err" "unknown command 'xyzzy'; this version has: run, check, verify, passes, ephemeris, view, brdf list, brdf show, brdf fit"
+for command in shares compare sweep; do
     # shellcheck disable=SC2086
     t "$command is not built yet" 2 $command plate.toml
     empty "$out"
-    has "$err" "'$command' is not built yet; this version has: run, check, verify, passes, ephemeris, brdf list, brdf show, brdf fit"
+    has "$err" "'$command' is not built yet; this version has: run, check, verify, passes, ephemeris, view, brdf list, brdf show, brdf fit"
 done
 t 'help of a command that is not built' 2 help shares
 t 'half a command' 2 brdf
@@ -317,11 +317,47 @@ status=${PIPESTATUS[0]}
 empty "$err"
 lines "$out" 1
 
+# --------------------------------------------------------------------- view
+
+for format in svg png pdf; do
+    t "view as $format" 0 view plate.toml -o "view.$format"
+    empty "$out"
+    mv "view.$format" first
+    t "view as $format again" 0 view plate.toml -o "view.$format"
+    holds 'the same bytes' cmp -s first "view.$format"
+    t "view as $format to a device" 0 view plate.toml --format $format -o /dev/null
+    rm first "view.$format"
+done
+t 'view of a row' 0 view good.toml --at 1 --color material --size 640x480 -o row.png
+t 'view without a file to write' 2 view plate.toml
+has "$err" 'expected -o FILE'
+t 'view as another format' 2 view plate.toml -o view.gif
+t 'view at no time' 2 view plate.toml --at yesterday -o view.png
+has "$err" "'yesterday' is no row"
+t 'view from nowhere' 2 view plate.toml --from 1,2 -o view.png
+has "$err" '--from' 'observer, sun, or a direction'
+t 'view from a direction of length 0' 2 view plate.toml --from 0,0,0 -o view.png
+t 'view with a Sun of its own' 2 view plate.toml --sun 1,0,0 -o view.png
+t 'view in another colouring' 2 view plate.toml --color red -o view.png
+has "$err" 'brightness, material, lit'
+t 'view of materials on a logarithmic scale' 2 view plate.toml --color material --log -o view.png
+for size in 10x10 800 800x 800x600x2 -800x600 99999x600; do
+    t "view in size $size" 2 view plate.toml "--size=$size" -o view.png
+    has "$err" '--size'
+done
+t 'view of a wrong file' 1 view broken.toml -o view.png
+has "$err" broken.toml:1:1:
+t 'view into a folder that is not there' 3 view plate.toml -o no/such/view.png
+holds 'no picture is left' [ ! -e view.png ]
+
 # ------------------------------------------------------------ check, verify
 
 t 'check' 0 check plate.toml
 has "$out" plate.toml white lambert
 empty "$err"
+holds 'nothing that could be shadowed' grep -q '^shadows     none computed; 0 of 1 facets' "$out"
+t 'check of what shadows what' 0 check "$source/scenarios/models/box-wing.toml"
+has "$out" '6 of 10 facets can be shadowed' 'shadow of wing-north' '1 of 6 facets of bus'
 t 'check goes on after a wrong file' 1 check broken.toml plate.toml absent.toml
 has "$out" plate.toml
 has "$err" broken.toml:1:1: absent.toml

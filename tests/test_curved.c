@@ -1,98 +1,11 @@
 /* Curved primitives in the light: shiny ones shine as the surfaces that their facets stand for, and
  * diffuse ones converge to closed forms. The integrals here are made from scalar BRDFs and true
  * normals, and know nothing of facets. */
-#include "shapes.h"
+#include "bench.h"
 
 #include "brdf/sharpness.h"
 
 static const double x_axis[3] = {1, 0, 0}, z_axis[3] = {0, 0, 1};
-
-/* A model of one material with one lobe. */
-typedef struct bench {
-    brdf_lobe lobe;
-    brdf_material material;
-    model_material materials[1];
-    model_component components[1];
-    facet_list facets;
-    model model;
-} bench;
-
-/* A material as its name and parameters. */
-typedef struct paint {
-    const char *name;
-    double params[6];
-} paint;
-
-#define NONE ((double)NAN) /* a parameter that is not given */
-
-static void bench_paint(bench *b, const paint *p)
-{
-    b->lobe = (brdf_lobe){.model = brdf_model_named(p->name), .weight = 1.0};
-    ck_assert_ptr_nonnull(b->lobe.model);
-    for (int k = 0; k < b->lobe.model->n_params; k++)
-        b->lobe.params[k] = p->params[k];
-    ck_assert_int_eq(b->lobe.model->prepare(b->lobe.params, b->lobe.coef, NULL), GLINT_OK);
-    b->material = (brdf_material){1, &b->lobe};
-    b->materials[0] = (model_material){p->name, &b->material};
-    b->components[0] = (model_component){"body"};
-}
-
-static bench *bench_of(primitive_spec *spec, const paint *p)
-{
-    bench *b = calloc(1, sizeof *b);
-    bench_paint(b, p);
-    shape_add(spec, 0, &b->facets);
-    ck_assert_int_eq(
-        model_compile(&b->facets, b->materials, 1, b->components, 1, 1, &b->model, NULL), GLINT_OK);
-    return b;
-}
-
-static void bench_free(bench *b)
-{
-    model_free(&b->model);
-    free(b);
-}
-
-/* The sums of BRDF_TILE pairs of directions, m^2/sr. */
-static void sums_of(const bench *b, double (*sun)[3], double (*observer)[3], double x[BRDF_TILE])
-{
-    brdf_light light;
-    for (int k = 0; k < BRDF_TILE; k++)
-        for (int j = 0; j < 3; j++)
-            light.i[j][k] = sun[k][j], light.r[j][k] = observer[k][j];
-    brdf_light_finish(&light);
-    ck_assert_int_eq(b->model.n_spans, 1);
-    model_sum(&b->model, &light, NULL, NULL, x);
-}
-
-/* --- directions --- */
-
-/* Even numbers in 0 to 1, the same on every run (a Weyl sequence). */
-static double number(int k, int which)
-{
-    static const double step[4] = {0.6180339887498949, 0.7548776662466927, 0.5698402909980532,
-                                   0.8191725133961645};
-    return fmod((k + 1) * step[which], 1.0);
-}
-
-static void direction_of(double u, double v, double out[3])
-{
-    const double z = 2 * u - 1, s = sqrt(1 - z * z), a = TWO_PI * v;
-    out[0] = s * cos(a), out[1] = s * sin(a), out[2] = z;
-}
-
-/* Attitude k: two directions at a phase angle, their bisector and their plane anywhere. */
-static void attitude(int k, double phase, double sun[3], double observer[3])
-{
-    double h[3], other[3], aside[3];
-    direction_of(number(k, 0), number(k, 1), h);
-    direction_of(number(k, 2), number(k, 3), other);
-    perp3(other, h, aside);
-    scale3(h, cos(0.5 * phase), sun);
-    copy3(sun, observer);
-    add_scaled3(sun, sin(0.5 * phase), aside, sun);
-    add_scaled3(observer, -sin(0.5 * phase), aside, observer);
-}
 
 /* --- integrals over true normals --- */
 
@@ -247,7 +160,7 @@ static void assert_constant(int facets, const paint *p,
         for (int tile = 0; tile < N_ATTITUDES / BRDF_TILE; tile++) {
             double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
             for (int k = 0; k < BRDF_TILE; k++)
-                attitude(tile * BRDF_TILE + k, phase, sun[k], observer[k]);
+                light_at(tile * BRDF_TILE + k, phase, sun[k], observer[k]);
             sums_of(b, sun, observer, x);
             for (int k = 0; k < BRDF_TILE; k++)
                 ck_assert_msg(is_near(x[k], right, rel * right),
@@ -321,7 +234,7 @@ START_TEST(test_sphere_of_shiny_paint_is_constant_with_few_facets)
     const double phase = 30 * DEG, right = integral(b, phase);
     double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
     for (int k = 0; k < BRDF_TILE; k++)
-        attitude(k, phase, sun[k], observer[k]);
+        light_at(k, phase, sun[k], observer[k]);
     sums_of(b, sun, observer, x);
     for (int k = 0; k < BRDF_TILE; k++)
         assert_rel(x[k], right, 3e-3);
@@ -345,7 +258,7 @@ START_TEST(test_sphere_of_diffuse_paint_is_the_polyhedron)
     ck_assert_ptr_null(b->model.spans[0].curved);
     double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
     for (int k = 0; k < BRDF_TILE; k++)
-        attitude(k, 1, sun[k], observer[k]);
+        light_at(k, 1, sun[k], observer[k]);
     sums_of(b, sun, observer, x);
     for (int k = 0; k < BRDF_TILE; k++) {
         double want = 0;
@@ -480,6 +393,116 @@ START_TEST(test_cylinder_inside_shines_as_its_integral)
 }
 END_TEST
 
+/* ---------------------------------------------------------------- diffuse ones */
+
+/* Two directions e_s and e_o above the plane across the axis of a cylinder (z), D apart in azimuth.
+ */
+static void about_axis(double e_s, double e_o, double apart, double turn, double sun[3],
+                       double observer[3])
+{
+    sun[0] = cos(e_s) * cos(turn), sun[1] = cos(e_s) * sin(turn), sun[2] = sin(e_s);
+    observer[0] = cos(e_o) * cos(turn + apart), observer[1] = cos(e_o) * sin(turn + apart);
+    observer[2] = sin(e_o);
+}
+
+/* Side of a cylinder: X = rho r L cos(e_s) cos(e_o) [sin D + (pi - D) cos D] / (2 pi) (physics
+ * page, section 11). */
+START_TEST(test_cylinder_of_diffuse_paint_converges_to_closed_form)
+{
+    const paint p = {"lambert", {0.4}};
+    double worst[2] = {0, 0};
+    for (int finer = 0; finer < 2; finer++) {
+        primitive_spec spec = shape("cylinder");
+        SET(&spec, "radius_m", 1.2);
+        SET(&spec, "length_m", 5);
+        SET(&spec, "sides", finer ? 128 : 64);
+        SET(&spec, "open", 1);
+        shape_material(&spec, "material", 0);
+        bench *b = bench_of(&spec, &p);
+        double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
+        for (int k = 0; k < BRDF_TILE; k++)
+            about_axis((number(k, 0) - 0.5) * 2.5, (number(k, 1) - 0.5) * 2.5, 2.4 * number(k, 2),
+                       number(k, 3), sun[k], observer[k]);
+        sums_of(b, sun, observer, x);
+        for (int k = 0; k < BRDF_TILE; k++) {
+            const double apart = 2.4 * number(k, 2);
+            const double e_s = (number(k, 0) - 0.5) * 2.5, e_o = (number(k, 1) - 0.5) * 2.5;
+            const double full = 0.4 * 1.2 * 5 * cos(e_s) * cos(e_o) / 2; /* at D = 0 */
+            const double want = full * (sin(apart) + (PI - apart) * cos(apart)) / PI;
+            worst[finer] = fmax(worst[finer], fabs(x[k] - want) / full);
+        }
+        bench_free(b);
+    }
+    /* Sides are short of the circle by (pi/n)^2/6, and light begins and ends within a side. */
+    ck_assert_msg(worst[0] < 2e-3, "%g", worst[0]);
+    ck_assert_msg(worst[1] < 0.4 * worst[0], "%g, %g", worst[0], worst[1]);
+}
+END_TEST
+
+START_TEST(test_disc_of_diffuse_paint_converges_to_closed_form)
+{
+    const paint p = {"lambert", {0.4}};
+    double off[2];
+    for (int finer = 0; finer < 2; finer++) {
+        primitive_spec spec = shape("disc");
+        SET(&spec, "radius_m", 1.5);
+        SET(&spec, "normal", 0, 0, 1);
+        SET(&spec, "sides", finer ? 128 : 64);
+        shape_material(&spec, "material", 0);
+        bench *b = bench_of(&spec, &p);
+        double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE];
+        for (int k = 0; k < BRDF_TILE; k++)
+            about_axis(60 * DEG, 45 * DEG, k, 1, sun[k], observer[k]);
+        sums_of(b, sun, observer, x);
+        const double want = 0.4 / PI * PI * 2.25 * sin(60 * DEG) * sin(45 * DEG);
+        off[finer] = 1 - x[0] / want;
+        for (int k = 1; k < BRDF_TILE; k++)
+            assert_rel(x[k], x[0], 1e-14);
+        bench_free(b);
+    }
+    /* 1 - sin(2a)/(2a), a = pi/n */
+    assert_rel(off[0], 2 * PI * PI / (3 * 64 * 64), 1e-3);
+    assert_rel(off[1], 2 * PI * PI / (3 * 128 * 128), 1e-3);
+}
+END_TEST
+
+START_TEST(test_cone_and_dish_of_diffuse_paint_converge_to_their_integrals)
+{
+    const paint p = {"lambert", {0.4}};
+    double sun[BRDF_TILE][3], observer[BRDF_TILE][3], x[BRDF_TILE], worst[2][2] = {{0}};
+    for (int k = 0; k < BRDF_TILE; k++)
+        about_axis(0.3 + number(k, 0), 0.3 + number(k, 1), 2 * number(k, 2), number(k, 3), sun[k],
+                   observer[k]);
+    for (int finer = 0; finer < 2; finer++)
+        for (int dish = 0; dish < 2; dish++) {
+            primitive_spec spec = shape(dish ? "dish" : "cone");
+            SET(&spec, "radius_m", 1);
+            if (dish)
+                SET(&spec, "depth_m", 0.25);
+            else
+                SET(&spec, "length_m", 2);
+            if (dish) SET(&spec, "rings", finer ? 16 : 8);
+            SET(&spec, "sides", finer ? 128 : 64);
+            if (!dish) SET(&spec, "open", 1);
+            shape_material(&spec, "material", 0);
+            bench *b = bench_of(&spec, &p);
+            sums_of(b, sun, observer, x);
+            for (int k = 0; k < BRDF_TILE; k++) {
+                const double want = dish ? dish_integral(&b->material, 1, 2, 1, sun[k], observer[k])
+                                         : cone_integral(&b->material, 0.5, sqrt(5), 1 / sqrt(5), 1,
+                                                         sun[k], observer[k]);
+                worst[dish][finer] = fmax(worst[dish][finer], fabs(x[k] / want - 1));
+            }
+            bench_free(b);
+        }
+    for (int dish = 0; dish < 2; dish++) {
+        ck_assert_msg(worst[dish][0] < 4e-3, "%d: %g", dish, worst[dish][0]);
+        ck_assert_msg(worst[dish][1] < 0.4 * worst[dish][0], "%d: %g, %g", dish, worst[dish][0],
+                      worst[dish][1]);
+    }
+}
+END_TEST
+
 /* ---------------------------------------------------------------- dishes */
 
 /* A dish of radius 1 and depth 0.25 (R = 2) with those facets agrees with its integral on both
@@ -548,6 +571,9 @@ int main(void)
     tcase_add_test(cone, test_cylinder_of_shiny_paint_glints_as_its_integral);
     tcase_add_test(cone, test_cone_of_shiny_paint_glints_as_its_integral);
     tcase_add_test(cone, test_cylinder_inside_shines_as_its_integral);
+    tcase_add_test(cone, test_cylinder_of_diffuse_paint_converges_to_closed_form);
+    tcase_add_test(cone, test_disc_of_diffuse_paint_converges_to_closed_form);
+    tcase_add_test(cone, test_cone_and_dish_of_diffuse_paint_converge_to_their_integrals);
     tcase_add_test(dish, test_dish_of_shiny_paint_shines_as_its_integral);
     tcase_set_timeout(dish, 300);
     tcase_set_timeout(sharp, 60);

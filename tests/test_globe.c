@@ -1,6 +1,6 @@
 /* Light that comes by way of a lit globe: held against closed forms, and against brute-force sums
  * over its ground with scalar BRDFs, which know nothing of rings, terminators and lobes. */
-#include "painted.h"
+#include "bench.h"
 
 #include "facets/globe.h"
 

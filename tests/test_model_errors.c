@@ -207,21 +207,6 @@ START_TEST(test_scenario_component_wrong_is_refused)
 }
 END_TEST
 
-/* Primitives that are documented but not in the table. */
-START_TEST(test_scenario_planned_primitive_is_refused_by_name)
-{
-    static const char *const planned[] = {"cylinder", "cone", "disc", "annulus",
-                                          "dish",     "wing", "boom", "mesh"};
-    for (size_t k = 0; k < COUNT_OF(planned); k++) {
-        char content[128], found[32];
-        snprintf(content, sizeof content, BUS "[[component.@%s]]\nradius_m = 1\n", planned[k]);
-        snprintf(found, sizeof found, "'%s'", planned[k]);
-        const wrong_text w = {PART_COMPONENT, content, found, "not built yet", 0};
-        if (!primitive_kind_named(planned[k])) assert_wrong(SOUND, &w);
-    }
-}
-END_TEST
-
 START_TEST(test_scenario_components_in_a_circle_are_refused)
 {
     const char *const circle = "[[component]]\nname = \"a\"\nparent = \"c\"\n"
@@ -316,6 +301,13 @@ START_TEST(test_scenario_primitive_wrong_is_refused)
         {PART_PRIMITIVE, BOX "faces = { \"+z\" = @\"grey\" }\n", "no material 'grey'",
          "[materials.NAME]", 0},
         {PART_PRIMITIVE, BOX "faces = { @\"+w\" = \"white\" }\n", "unknown key '+w'", NULL, 0},
+        {PART_PRIMITIVE, BOX "crinkle = { facets_per_side = @1, tilt_rms_deg = 4, seed = 7 }\n",
+         "the number 1", "a whole number from 2 to 256", 0},
+        {PART_PRIMITIVE, BOX "crinkle = { facets_per_side = 8, tilt_rms_deg = @61 }\n", "61",
+         "above 0 and at most 60", 0},
+        {PART_PRIMITIVE, BOX "crinkle = @{ facets_per_side = 8 }\n", "no 'tilt_rms_deg'", "deg", 0},
+        {PART_PRIMITIVE, BOX "crinkle = { facets_per_side = 8, tilt_rms_deg = 4, @sed = 7 }\n",
+         "unknown key 'sed'", "did you mean 'seed'?", 0},
         {PART_PRIMITIVE, BOX "rotation_deg = @{ axis = [0, 0, 1] }\n", "no 'angle'", "deg", 0},
         {PART_PRIMITIVE, BOX "rotation_deg = { axis = @[0, 0], angle = 1 }\n", "2 elements",
          "3 numbers", 0},
@@ -367,7 +359,6 @@ static Suite *model_errors_suite(void)
     tcase_add_test(model, test_scenario_material_wrong_is_refused);
     tcase_add_test(model, test_scenario_materials_from_wrong_file_is_refused);
     tcase_add_test(model, test_scenario_component_wrong_is_refused);
-    tcase_add_test(model, test_scenario_planned_primitive_is_refused_by_name);
     tcase_add_test(model, test_scenario_components_in_a_circle_are_refused);
     tcase_add_test(model, test_scenario_hinge_wrong_is_refused);
     tcase_add_test(model, test_scenario_primitive_wrong_is_refused);

@@ -68,12 +68,14 @@ START_TEST(test_primitive_table_names_each_kind_once)
             ck_assert_int_gt((int)strlen(key->doc), 0);
             ck_assert_ptr_nonnull(key->unit);
             const char *tail = strrchr(key->name, '_');
-            ck_assert_str_eq(key->unit, tail && strcmp(tail, "_m") == 0 ? "m" : "");
+            const bool is_m = tail && strcmp(tail, "_m") == 0,
+                       is_deg = tail && strcmp(tail, "_deg") == 0;
+            ck_assert_str_eq(key->unit, is_m ? "m" : is_deg ? "deg" : "");
             if (key->kind == KEY_VECTOR) ck_assert(key->length == 2 || key->length == 3);
         }
         ck_assert_int_eq(primitive_key_index(kind, "colour"), -1);
     }
-    ck_assert_uint_eq(n, 12);
+    ck_assert_uint_eq(n, 13);
     ck_assert_ptr_null(primitive_kind_named("teapot"));
     ck_assert_ptr_null(primitive_kind_at(1000));
 }

@@ -1,6 +1,6 @@
 /* The Sun as a disc: held against brute-force quadrature over it with scalar BRDFs, which knows
  * nothing of lobes, and against closed forms. */
-#include "painted.h"
+#include "bench.h"
 
 #define SUN_Q (0.2664531 * DEG) /* rad, angular radius at 1 au (physics page, section 4) */
 

@@ -1,7 +1,15 @@
 glint_test(sgp4)
 glint_test(tle)
 glint_test(primitives)
+glint_test(revolved)
+glint_test(crinkle)
+glint_test(curved)
+glint_test(mesh)
+glint_test(mesh_light)
+target_compile_definitions(test_mesh_light PRIVATE SCENARIO_DIR="${PROJECT_SOURCE_DIR}/scenarios")
 glint_test(model)
+glint_test(visibility_pieces)
+glint_test(view PkgConfig::CAIRO)
 glint_test(attitude)
 glint_test(attitude_table)
 glint_test(attitude_plan)
@@ -101,6 +109,9 @@ add_test(NAME known COMMAND sh -c "exec \"$1\" verify \"$2\"/known/*.toml" sh
 find_program(GLINT_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(GLINT_PYTHON python3)
 if(GLINT_PYTHON)
+    # The mesh that ships is what its script writes.
+    add_test(NAME probe_mesh COMMAND sh -c "\"$1\" \"$2/make-probe.py\" /dev/stdout | cmp - \"$2/probe.obj\"" sh
+        ${GLINT_PYTHON} ${PROJECT_SOURCE_DIR}/scenarios/models)
     add_test(NAME ecsv COMMAND ${GLINT_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test_ecsv.py
         $<TARGET_FILE:glint_program> ${CMAKE_CURRENT_SOURCE_DIR}/data)
 else()

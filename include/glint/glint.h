@@ -349,6 +349,131 @@ glint_status glint_ephemeris_write(glint_ephemeris *ephemeris, glint_format form
  * at all. Errors: GLINT_ARGUMENT for another name, GLINT_OUTPUT. */
 glint_status glint_plot_check(const char *path, glint_error *error);
 
+/* ------------------------------------------------------------------- views */
+
+/* The satellite as it looks at one moment: what is seen of every facet as polygons, lit and in
+ * shadow apart, exactly. Immutable; may be shared by threads. */
+typedef struct glint_view glint_view;
+
+/* From where it is looked at. */
+typedef enum glint_view_from {
+    GLINT_FROM_OBSERVER, /* of the scenario */
+    GLINT_FROM_SUN,
+    GLINT_FROM_DIRECTION /* given in the body frame */
+} glint_view_from;
+
+/* What is looked at; zero-initialise for what is usual. */
+typedef struct glint_view_options {
+    const char *at; /* UTC as scenarios write it, or s from the start; where directions are given
+                       the number of a row, from 0. NULL: the start. Not of a model. Borrowed */
+    glint_view_from from; /* a model is looked at from a direction */
+    double from_body[3];  /* towards the viewer, any length; GLINT_FROM_DIRECTION */
+    bool has_sun;         /* of a model: */
+    double sun_body[3];   /* towards the Sun, any length */
+} glint_view_options;
+
+/* How a piece of a facet is lit. */
+typedef enum glint_view_light {
+    GLINT_PIECE_LIT,
+    GLINT_PIECE_SHADOWED,    /* turned to the Sun, but something is before it */
+    GLINT_PIECE_TURNED_AWAY, /* from the Sun; everything in the Earth's umbra */
+    GLINT_PIECE_BACK         /* of a facet without a back material: black */
+} glint_view_light;
+
+/* A convex piece of a facet that is seen. Points and lengths in the picture's axes, m: x to the
+ * right, y up, z to the viewer; the body's origin is 0. */
+typedef struct glint_view_piece {
+    const double (*points)[3]; /* borrowed; anticlockwise */
+    size_t n_points;
+    double projected_m2;     /* area in the picture */
+    int facet;               /* index; pieces of a facet follow each other */
+    int component, material; /* indices; material -1: a back that has none */
+    glint_view_light light;
+    double facing;          /* cosine between the viewer and the normal of the side that is seen */
+    double radiance_factor; /* radiance towards the viewer over that of a white Lambert plate that
+                               faces the whole Sun; 0 unless lit */
+} glint_view_piece;
+
+/* A part of an edge that is seen, in the same axes. */
+typedef struct glint_view_edge {
+    double from_m[3], to_m[3];
+    bool is_outline; /* beyond it the surface ends, or turns out of sight */
+    bool is_smooth;  /* it lies within one flat surface, or one curved one */
+    bool parts_materials;
+    double turn_rad; /* between the facets on both sides; 0 at an end */
+} glint_view_edge;
+
+/* What there is to say of the view. Directions are unit vectors in the picture's axes. */
+typedef struct glint_view_scene {
+    const char *title, *band; /* borrowed; title "" where not said; the first band */
+    glint_view_from from;
+    bool is_model; /* no scenario, so no time */
+    bool has_utc;  /* else the scenario gives directions, and there is a row */
+    glint_utc utc;
+    double t_s;
+    int64_t row;
+    bool north_up; /* the picture's y is celestial north, x west; else body z is up (body y
+                      along z) */
+    double sun[3], body_axes[3][3];
+    double phase_angle_rad;
+    bool has_range; /* from the observer */
+    double range_m;
+    double sunlit_fraction;
+    bool below_horizon;
+    bool has_magnitude;      /* from the observer, where it is bright */
+    double magnitude;        /* in the first band */
+    bool has_shadows;        /* false: self_shadows = "none" */
+    bool hinges_held;        /* of a model: some hinge that would move stands at angle 0 */
+    double lo_m[2], hi_m[2]; /* what the pieces fill; x, y */
+    double brightest;        /* greatest radiance factor */
+} glint_view_scene;
+
+/* Reads a scenario or a model file and looks at it. overrides: as of glint_scenario_read. options:
+ * NULL for what is usual. Hinges of a model that track the Sun or the observer do so, others stand
+ * at their fixed angle, or at 0. Errors: GLINT_INPUT, those of reading and of the orbit;
+ * GLINT_ARGUMENT: `at` is no time, or outside of the scenario's; a direction of length 0; what does
+ * not go with a model or a scenario. Warnings may be in the list on success. */
+glint_status glint_view_read(const char *path, const char *const *overrides, size_t n_overrides,
+                             const glint_view_options *options, glint_view **out,
+                             glint_errors *errors);
+void glint_view_free(glint_view *view);
+
+const glint_view_scene *glint_view_describe(const glint_view *view);
+/* Pieces, in the order of facets; edges. Borrowed. */
+const glint_view_piece *glint_view_pieces(const glint_view *view, size_t *n);
+const glint_view_edge *glint_view_edges(const glint_view *view, size_t *n);
+/* Names by index; NULL past the end. Borrowed. */
+const char *glint_view_material(const glint_view *view, size_t k);
+const char *glint_view_component(const glint_view *view, size_t k);
+
+/* What the colours of a picture stand for. */
+typedef enum glint_view_colour {
+    GLINT_COLOUR_BRIGHTNESS, /* the radiance factor */
+    GLINT_COLOUR_MATERIAL,
+    GLINT_COLOUR_LIGHT /* lit, in shadow, turned away */
+} glint_view_colour;
+
+enum { GLINT_VIEW_LEAST_SIZE = 200, GLINT_VIEW_MOST_SIZE = 8192 };
+
+/* How a view is drawn; zero-initialise for what is usual. */
+typedef struct glint_view_style {
+    glint_view_colour colour;
+    bool logarithmic;   /* scale of the brightness */
+    const char *format; /* "svg", "png" or "pdf"; NULL: as the file's name ends. Borrowed */
+    int width, height;  /* px, GLINT_VIEW_LEAST_SIZE to GLINT_VIEW_MOST_SIZE; of .svg and .pdf in
+                          units of 1/96 inch; 0: 1200 x 900 */
+} glint_view_style;
+
+/* Whether a view can be drawn so: the name of the file ends in .svg, .png or .pdf, or the style has
+ * a format; and the size is in range. Errors: GLINT_ARGUMENT. */
+glint_status glint_view_draw_check(const glint_view_style *style, const char *path,
+                                   glint_error *error);
+/* Draws it. path: as of glint_table_write. style: NULL for what is usual. The same view gives the
+ * same bytes in every run of a program. Errors: those of glint_view_draw_check; GLINT_OUTPUT;
+ * GLINT_INTERNAL. */
+glint_status glint_view_draw(const glint_view *view, const glint_view_style *style,
+                             const char *path, glint_error *error);
+
 /* ------------------------------------------------------------ check, verify */
 
 /* Reads a scenario or a model file and describes it: areas, materials, times, element set age, what

@@ -128,6 +128,11 @@ glint_status error_no_memory(glint_error *error)
     return error_set(error, GLINT_INTERNAL, PLACE_NONE, "out of memory");
 }
 
+glint_status errors_no_memory(glint_errors *errors)
+{
+    return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+}
+
 glint_errors *glint_errors_new(void)
 {
     return calloc(1, sizeof(glint_errors));

@@ -42,6 +42,7 @@ void errors_sort(glint_errors *errors, size_t first);
 
 /* The usual text for memory that is out; returns GLINT_INTERNAL. */
 glint_status error_no_memory(glint_error *error);
+glint_status errors_no_memory(glint_errors *errors);
 
 #ifdef __cplusplus
 }

@@ -5,19 +5,19 @@
 #include <limits.h>
 #include <string.h>
 
-#define BIT(option) (1u << (option))
+#define BIT(option) OPTION_BIT(option)
 
-enum {
-    GENERAL = BIT(OPTION_OUTPUT) | BIT(OPTION_FORMAT) | BIT(OPTION_THREADS) | BIT(OPTION_QUIET) |
-              BIT(OPTION_HELP),
-    WITH_SCENARIO = GENERAL | BIT(OPTION_SET)
-};
+#define GENERAL                                                                                    \
+    (BIT(OPTION_OUTPUT) | BIT(OPTION_FORMAT) | BIT(OPTION_THREADS) | BIT(OPTION_QUIET) |           \
+     BIT(OPTION_HELP))
+#define WITH_SCENARIO (GENERAL | BIT(OPTION_SET))
 
 static const char *const csv_only[] = {"csv", NULL};
 static const char *const text_only[] = {"text", NULL};
 static const char *const toml_only[] = {"toml", NULL};
 
 static const char *const table_first[] = {"table", "csv", "json", NULL};
+static const char *const picture_formats[] = {"svg", "png", "pdf", NULL};
 static const char *const csv_first[] = {"csv", "json", "table", NULL};
 
 static const command commands[] = {
@@ -102,6 +102,27 @@ static const command commands[] = {
      .min_operands = 1,
      .max_operands = 1,
      .run = cmd_ephemeris},
+    {.name = "view",
+     .arguments = "FILE",
+     .summary = "draw the satellite as the observer sees it at one moment",
+     .details =
+         "Draws the satellite of a scenario, or a model alone, into the picture -o FILE, which\n"
+         "ends in .svg, .png or .pdf. What is hidden, and every shadow that one part casts on\n"
+         "another, is cut out exactly. Celestial north is up for an observer, else the body's z\n"
+         "axis; a circle beside it shows the body's axes and the Sun, with broken lines where\n"
+         "they point away from the viewer.\n"
+         "\n"
+         "--color brightness shows the radiance factor: the radiance over that of a white plate\n"
+         "that faces the Sun. --color material and --color lit show what the names say. A model\n"
+         "has no time: --from and --sun say from where it is seen and lit.",
+     .example = "glint view scenarios/iss-vienna.toml --at 2025-07-24T19:13:10Z -o iss.png",
+     .example_doc = "the space station as it is seen from Vienna when it culminates",
+     .formats = picture_formats,
+     .options = WITH_SCENARIO | BIT(OPTION_AT) | BIT(OPTION_FROM) | BIT(OPTION_SUN) |
+                BIT(OPTION_COLOR) | BIT(OPTION_LOG) | BIT(OPTION_SIZE),
+     .min_operands = 1,
+     .max_operands = 1,
+     .run = cmd_view},
     {.name = "brdf list",
      .arguments = "",
      .summary = "list the reflectance models and their parameters",
@@ -172,7 +193,7 @@ static const command commands[] = {
      .run = cmd_brdf_fit},
 };
 
-static const char *const planned[] = {"shares", "compare", "view", "sweep"};
+static const char *const planned[] = {"shares", "compare", "sweep"};
 
 enum {
     N_COMMANDS = sizeof commands / sizeof *commands,

@@ -15,7 +15,7 @@ typedef struct command {
     const char *details;   /* lines of 78 letters at most, paragraphs parted by an empty line */
     const char *example, *example_doc;
     const char *const *formats; /* what --format takes, NULL at the end; the first is the default */
-    unsigned options;           /* bits of the options that it takes */
+    option_set options;         /* that it takes */
     int min_operands, max_operands;
     glint_status (*run)(const options *o); /* prints its own errors */
 } command;
@@ -43,6 +43,7 @@ glint_status cmd_check(const options *o);
 glint_status cmd_verify(const options *o);
 glint_status cmd_passes(const options *o);
 glint_status cmd_ephemeris(const options *o);
+glint_status cmd_view(const options *o);
 glint_status cmd_brdf_list(const options *o);
 glint_status cmd_brdf_show(const options *o);
 glint_status cmd_brdf_fit(const options *o);

@@ -16,12 +16,12 @@ static const struct {
 };
 enum { N_STATUSES = sizeof statuses / sizeof *statuses };
 
-static bool takes(unsigned set, int id)
+static bool takes(option_set set, int id)
 {
     return set >> id & 1u;
 }
 
-static void print_options(FILE *out, unsigned set)
+static void print_options(FILE *out, option_set set)
 {
     fprintf(out, "\noptions:\n");
     for (int id = 0; id < OPTION_COUNT; id++) {
@@ -161,7 +161,7 @@ void help_man(FILE *out)
 
 /* ------------------------------------------------------------- completion */
 
-static void completion_options(FILE *out, unsigned set)
+static void completion_options(FILE *out, option_set set)
 {
     for (int id = 0; id < OPTION_COUNT; id++) {
         if (!takes(set, id)) continue;

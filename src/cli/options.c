@@ -48,6 +48,17 @@ static const option_info table[OPTION_COUNT] = {
     [OPTION_FLASH_ANGLE] =
         {'\0', "flash-angle", "ANGLE",
          "a flash: the mirrored Sun comes nearer to the observer, deg; default 1"},
+    [OPTION_AT] =
+        {'\0', "at", "TIME",
+         "the moment: UTC, s from the start, or the row of given directions; default: the "
+         "start"},
+    [OPTION_FROM] = {'\0', "from", "WHERE",
+                     "look from the observer, the default, the sun, or a direction in the body "
+                     "frame, as 1,-1,0.5"},
+    [OPTION_SUN] = {'\0', "sun", "X,Y,Z", "direction to the Sun in the body frame, of a model"},
+    [OPTION_COLOR] = {'\0', "color", "WHAT",
+                      "what colours stand for: brightness, the default, material or lit"},
+    [OPTION_SIZE] = {'\0', "size", "WxH", "size of the picture in px; default 1200x900"},
     [OPTION_THREADS] = {'\0', "threads", "N",
                         "compute on N threads; 0, the default, means all processors"},
     [OPTION_QUIET] = {'q', "quiet", NULL,
@@ -71,7 +82,7 @@ const option_info *option_get(option_id id)
 typedef struct reader {
     int n, at;
     const char *const *words;
-    unsigned accepted;
+    option_set accepted;
     const char *const *formats;
     options *out;
     glint_error *error;
@@ -108,7 +119,7 @@ static glint_status read_format(const char *value, const reader *r)
 static glint_status apply(const reader *r, option_id id, const char *value)
 {
     options *out = r->out;
-    out->given |= 1u << id;
+    out->given |= OPTION_BIT(id);
     out->values[id] = value;
     if (value && !value[0] && strcmp(table[id].value, "FILE") == 0)
         return error_say(r->error, GLINT_ARGUMENT, "--%s has an empty file name", table[id].name);
@@ -232,7 +243,7 @@ static glint_status read_letters(reader *r, const char *letters)
     return GLINT_OK;
 }
 
-glint_status options_read(int n, const char *const *words, unsigned accepted,
+glint_status options_read(int n, const char *const *words, option_set accepted,
                           const char *const *formats, options *out, glint_error *error)
 {
     *out = (options){0};
@@ -298,4 +309,39 @@ glint_status options_number(const options *o, option_id id, double least, double
     const glint_status status = options_numbers(o, id, least, below, &number, 1, &n, error);
     if (status == GLINT_OK && n == 1) *out = number;
     return status;
+}
+
+glint_status options_vector(const options *o, option_id id, const char *expected, double *out,
+                            size_t n, glint_error *error)
+{
+    const char *at = o->values[id];
+    for (size_t k = 0; at && k < n; k++) {
+        char *end;
+        errno = 0;
+        out[k] = strtod(at, &end);
+        const bool decimal = end > at && strspn(at, "+-.0123456789eE") >= (size_t)(end - at);
+        const char after = k + 1 < n ? ',' : '\0';
+        if (!decimal || errno || *end != after)
+            return error_say(error, GLINT_ARGUMENT, "--%s has '%s'; expected %s", table[id].name,
+                             o->values[id], expected);
+        at = end + 1;
+    }
+    return GLINT_OK;
+}
+
+glint_status options_word(const options *o, option_id id, const char *const *words, int *out,
+                          glint_error *error)
+{
+    char known[128] = "";
+    if (!o->values[id]) return GLINT_OK;
+    for (int k = 0; words[k]; k++) {
+        if (strcmp(words[k], o->values[id]) == 0) {
+            *out = k;
+            return GLINT_OK;
+        }
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", words[k]);
+    }
+    return error_say(error, GLINT_ARGUMENT, "--%s has '%s'; expected one of: %s", table[id].name,
+                     o->values[id], known);
 }

@@ -4,7 +4,7 @@
 
 #include <glint/glint.h>
 
-/* An option: its row in the table, and its bit (1u << id) in the set that a command takes. */
+/* An option: its row in the table, and its bit (OPTION_BIT) in the set that a command takes. */
 typedef enum option_id {
     OPTION_OUTPUT,
     OPTION_PLOT,
@@ -26,6 +26,11 @@ typedef enum option_id {
     OPTION_MAX_ZENITH,
     OPTION_ANISOTROPIC,
     OPTION_FLASH_ANGLE,
+    OPTION_AT,
+    OPTION_FROM,
+    OPTION_SUN,
+    OPTION_COLOR,
+    OPTION_SIZE,
     OPTION_THREADS,
     OPTION_QUIET,
     OPTION_HELP,
@@ -35,11 +40,14 @@ typedef enum option_id {
     OPTION_COUNT
 } option_id;
 
+/* A set of options. */
+typedef uint64_t option_set;
+#define OPTION_BIT(id) ((option_set)1 << (id))
+
 /* The options that `glint` itself takes, with no command. */
-enum {
-    PROGRAM_OPTIONS =
-        1u << OPTION_HELP | 1u << OPTION_VERSION | 1u << OPTION_MAN | 1u << OPTION_COMPLETION
-};
+#define PROGRAM_OPTIONS                                                                            \
+    (OPTION_BIT(OPTION_HELP) | OPTION_BIT(OPTION_VERSION) | OPTION_BIT(OPTION_MAN) |               \
+     OPTION_BIT(OPTION_COMPLETION))
 
 /* What help, the manual and completion say of an option. */
 typedef struct option_info {
@@ -54,7 +62,7 @@ const option_info *option_get(option_id id);
 
 /* A command line that has been read. The texts are borrowed from argv. */
 typedef struct options {
-    unsigned given; /* bits of the options that stood on the line */
+    option_set given; /* that stood on the line */
     const char
         *values[OPTION_COUNT]; /* as written; of an option given twice the last; NULL: none */
     const char *output;        /* NULL: standard output */
@@ -74,7 +82,7 @@ typedef struct options {
  * formats: what --format may name, NULL at the end (NULL where --format is not accepted).
  * Errors: GLINT_ARGUMENT, naming the nearest option where the given one is unknown; GLINT_INTERNAL.
  * options_free ends *out in every case. */
-glint_status options_read(int n, const char *const *words, unsigned accepted,
+glint_status options_read(int n, const char *const *words, option_set accepted,
                           const char *const *formats, options *out, glint_error *error);
 void options_free(options *o);
 
@@ -87,6 +95,14 @@ glint_status options_numbers(const options *o, option_id id, double least, doubl
 glint_status options_number(const options *o, option_id id, double least, double below, double *out,
                             glint_error *error);
 
+/* Reads n finite numbers of any size with commas between them. expected: what to say, as "a
+ * direction such as 1,0,-0.5". Errors: GLINT_ARGUMENT, also where there are not n of them. */
+glint_status options_vector(const options *o, option_id id, const char *expected, double *out,
+                            size_t n, glint_error *error);
+/* Number of the word among those in `words` (NULL at the end) that the option has as its value;
+ * *out is left alone where it was not given. Errors: GLINT_ARGUMENT. */
+glint_status options_word(const options *o, option_id id, const char *const *words, int *out,
+                          glint_error *error);
 /* True when that option stood on the line. */
 static inline bool options_has(const options *o, option_id id)
 {

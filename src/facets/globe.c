@@ -161,7 +161,7 @@ static glint_status split_materials(globe *g, double *width, glint_error *error)
  * direction of the source; facets whose horizon cuts the globe want the least number. */
 static int rings_for(double width)
 {
-    static const double LEAST = 24, PER_WIDTH = 1.8; /* held by the tests of convergence */
+    static const double LEAST = 24, PER_WIDTH = 2.4; /* held by the tests of convergence */
     return (int)ceil(fmax(LEAST, PER_WIDTH / width));
 }
 

@@ -97,6 +97,12 @@ void model_free(model *m);
 void model_sum(const model *m, const brdf_light *lights, const source_disc *disc,
                const double *visible, double *x);
 
+/* The same facet by facet, in one band and one lane: x[k] is what facet k sends of itself when all
+ * of it counts, m^2/sr. Errors: GLINT_INTERNAL (memory). */
+glint_status model_sum_facets(const model *m, const brdf_light *lights, const source_disc *disc,
+                              int band, int lane,
+                              double *x, glint_error *error);
+
 /* Geometry in numbers, for reports. */
 typedef struct model_component_facts {
     int n_facets;
@@ -110,5 +116,15 @@ glint_status model_component_describe(const model *m, int c, model_component_fac
                                       glint_error *error);
 /* Area of a material over the whole model, m^2, and its number of facets (NULL allowed). */
 double model_material_area(const model *m, int material, int *n_facets);
+
+/* Edges of a mesh that bend by more are meant to be edges, rad: 40 deg. */
+#define MODEL_MOST_BEND_RAD 0.698
+
+/* How imported facets of each material look like a curve: bends_rad (n_materials) gets the angle,
+ * rad, below which three quarters of those edges bend at which two of them meet that do not know of
+ * a curved surface, counting edges that bend by less than MODEL_MOST_BEND_RAD. 0 where there are
+ * fewer than 6 such edges. A lobe narrower than half of it flickers. Errors: GLINT_INTERNAL
+ * (memory). */
+glint_status model_material_bends(const model *m, double *bends_rad, glint_error *error);
 
 #endif

@@ -12,9 +12,9 @@
 #include <stdlib.h>
 
 static const primitive_kind *const table[] = {
-    &primitive_plate,   &primitive_facet,    &primitive_box,  &primitive_prism,
-    &primitive_sphere,  &primitive_cylinder, &primitive_cone, &primitive_disc,
-    &primitive_annulus, &primitive_dish,     &primitive_wing, &primitive_boom,
+    &primitive_plate,    &primitive_facet, &primitive_box,  &primitive_prism,   &primitive_sphere,
+    &primitive_cylinder, &primitive_cone,  &primitive_disc, &primitive_annulus, &primitive_dish,
+    &primitive_wing,     &primitive_boom,  &primitive_mesh,
 };
 
 const primitive_kind *primitive_kind_at(size_t k)
@@ -414,5 +414,5 @@ glint_status primitive_add(const primitive_spec *spec, int component, facet_list
     }
     if (!status) return GLINT_OK;
     facet_list_truncate(out, first, first_vertex, first_surface);
-    return errors_take(errors, &error, spec->where);
+    return error.status ? errors_take(errors, &error, spec->where) : status;
 }

@@ -15,6 +15,7 @@ typedef struct facet {
     int material;                 /* index, as the caller numbers them */
     int component;                /* index, as the caller numbers them */
     int surface; /* 1 + index in facet_list.surfaces of what it stands for a piece of; 0: itself */
+    bool imported; /* from a mesh: flat facets may stand for a curve that nobody tells of */
     double normal[3], tangent[3]; /* unit, orthogonal */
     double area_m2;
 } facet;
@@ -153,10 +154,11 @@ typedef struct primitive_kind {
     /* Semantic checks that the ranges of single keys cannot make (tangent along normal, points not
      * planar or not convex, ...): all errors found, each at the key's place. NULL: none. */
     glint_status (*check)(const primitive_spec *spec, glint_errors *errors);
-    /* Appends the primitive's facets, without rotation and copies. Only after check succeeded. The
-     * error's place is filled in where it has none. warnings: NULL allowed. */
+    /* Appends the primitive's facets, without rotation and copies. Only after check succeeded. What
+     * went wrong is either in *error (zero before; its place is filled in where it has none), or
+     * already among `errors`, which also takes warnings; NULL allowed. */
     glint_status (*build)(const primitive_spec *spec, int component, facet_list *out,
-                          glint_errors *warnings, glint_error *error);
+                          glint_errors *errors, glint_error *error);
     /* The point that rotation_deg turns about. */
     void (*centre)(const primitive_spec *spec, double out[3]);
 } primitive_kind;

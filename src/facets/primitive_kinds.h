@@ -26,7 +26,7 @@
 /* The rows of the table, each in the file of its name. */
 extern const primitive_kind primitive_plate, primitive_facet, primitive_box, primitive_prism,
     primitive_sphere, primitive_cylinder, primitive_cone, primitive_disc, primitive_annulus,
-    primitive_dish, primitive_wing, primitive_boom;
+    primitive_dish, primitive_wing, primitive_boom, primitive_mesh;
 
 /* True when key k has a value that stands alone: given or by default, finite, in range, and not
  * zero where a direction is asked for. Kinds ask before they compare values. */

@@ -1,8 +1,8 @@
 /* A sphere of flat triangles: the icosahedron, its faces divided in four again and again. */
 #include "base/vec.h"
-#include "facets/primitive_kinds.h"
+#include "facets/revolved.h"
 
-enum { RADIUS, CENTRE, FACETS, MATERIAL, N_KEYS };
+enum { RADIUS, CENTRE, FACETS, TOLERANCE, MATERIAL, N_KEYS };
 
 static const primitive_key keys[N_KEYS] = {
     [RADIUS] = {.name = "radius_m",
@@ -19,6 +19,7 @@ static const primitive_key keys[N_KEYS] = {
                 .def = {1280},
                 .min = 20,
                 .max = PRIMITIVE_MAX_FACETS},
+    [TOLERANCE] = TOLERANCE_KEY,
     [MATERIAL] =
         {.name = "material", .unit = "", .doc = "material", .kind = KEY_MATERIAL, .required = true},
 };
@@ -34,6 +35,8 @@ static const double corners[12][3] = {
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
 {
+    const glint_status both = check_resolution(spec, FACETS, TOLERANCE, errors);
+    if (both) return both;
     if (!primitive_key_sound(spec, FACETS)) return GLINT_OK; /* said already */
     const int wanted = (int)spec->value[FACETS][0];
     int below = 20;
@@ -116,14 +119,33 @@ static glint_status divide_face(const sphere_builder *s, int a, int b, int c, in
     return divide(s, p[0], p[1], p[2], levels);
 }
 
+/* How often the faces of the icosahedron are divided. The middle one of the four parts of an
+ * equilateral triangle is the largest, again equilateral, and its corners lie at half the tangent
+ * of the angle from its centre: edges are halved where the perpendicular of the triangle meets
+ * them. */
+static int levels_of(const primitive_spec *spec)
+{
+    enum { MOST_LEVELS = 9 }; /* 20 4^9 = PRIMITIVE_MAX_FACETS */
+    int levels = 0;
+    if (!spec->given[TOLERANCE]) {
+        for (int n = (int)spec->value[FACETS][0]; n > 20; n /= 4)
+            levels++;
+        return levels;
+    }
+    double tangent = 3.0 - sqrt(5.0); /* from the centre of a face of the icosahedron to a corner */
+    while (levels < MOST_LEVELS &&
+           spec->value[RADIUS][0] * (1.0 - 1.0 / hypot(1.0, tangent)) > spec->value[TOLERANCE][0]) {
+        tangent *= 0.5;
+        levels++;
+    }
+    return levels;
+}
+
 static glint_status build(const primitive_spec *spec, int component, facet_list *out,
                           glint_errors *warnings, glint_error *error)
 {
     (void)warnings;
-    const int n = (int)spec->value[FACETS][0];
-    int levels = 0;
-    for (int k = 20; k < n; k *= 4)
-        levels++;
+    const int levels = levels_of(spec), n = 20 << 2 * levels;
     curved_surface sphere = {.kind = SURFACE_SPHERE, .radius_m = spec->value[RADIUS][0]};
     copy3(spec->value[CENTRE], sphere.centre_m);
     int surface = 0;

@@ -48,6 +48,14 @@ bool visibility_is_trivial(const visibility *plan);
 /* Number of facets that can be shadowed by something at some time. */
 int visibility_n_exposed(const visibility *plan);
 
+/* How many facets of each component each component can come before, at some angle of the hinges:
+ * counts[on n + by], n = m->n_components; a component may come before its own facets. Hinges
+ * between two components are taken to turn by any angle, and balls about them for what they sweep:
+ * what never happens may be counted, what happens is never left out. Errors: GLINT_INTERNAL
+ * (memory). */
+glint_status visibility_count_exposed(const model *m, const visibility_component *components,
+                                      int *counts, glint_error *error);
+
 /* Memory for one thread. Errors: GLINT_INTERNAL (memory). */
 glint_status visibility_scratch_make(const visibility *plan, visibility_scratch **out,
                                      glint_error *error);

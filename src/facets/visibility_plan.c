@@ -6,9 +6,6 @@
 
 #include <stdlib.h>
 
-/* What rises over a facet's plane by less than this fraction of the model's size touches it: room
- * for coordinates written with 10 digits. Shadows of such things are left out. */
-#define CONTACT 1e-10
 /* Rounding error of coordinates after a rotation and a shift, over the model's size: 1e-16 for each
  * of a dozen operations, and some room. */
 #define NEAR 1e-14
@@ -33,7 +30,15 @@ typedef struct planner {
     int n_groups;
     double (*box)[6]; /* owned; of each node: lowest and highest x, y, z */
     int *node_group;  /* owned; of each node */
+    int caster;       /* the only component that counts as casting shadows; ALL_CAST: all do */
 } planner;
+
+enum { ALL_CAST = -1 };
+
+static bool casts(const planner *p, int component)
+{
+    return p->caster == ALL_CAST || p->caster == component;
+}
 
 /* --- facets --- */
 
@@ -89,7 +94,7 @@ static void place_planes(planner *p)
         out->offset_m = sum / f->n_vertices;
         for (int v = 0; v < f->n_vertices; v++)
             off_m = fmax(off_m, fabs(dot3(out->normal, p->vertices[ring[v]]) - out->offset_m));
-        out->contact_m = CONTACT * plan->size_m + 2.0 * off_m;
+        out->contact_m = VISIBILITY_CONTACT * plan->size_m + 2.0 * off_m;
         for (size_t j = 0; j < 3; j++)
             plan->normals[j * (size_t)plan->n_facets + (size_t)k] = f->normal[j];
     }
@@ -378,7 +383,7 @@ static reach turn_group(const planner *p, int group, const line *hinge)
 {
     reach out = {*hinge, INFINITY, -INFINITY, 0.0};
     for (int c = 0; c < p->plan->n_components; c++) {
-        if (p->group[c] != group) continue;
+        if (p->group[c] != group || !casts(p, c)) continue;
         for (int v = p->plan->first_vertex[c]; v < p->plan->first_vertex[c + 1]; v++)
             take_in(&out, p->vertices[v], 0.0);
     }
@@ -454,6 +459,7 @@ static bool node_rises(const planner *p, int facet_index, const plane *face, int
         const int child = node->child[j];
         if (!node->leaf && node_rises(p, facet_index, face, child)) return true;
         if (node->leaf && child != p->own[facet_index] &&
+            casts(p, p->plan->occluders[child].component) &&
             occluder_rises(p, face, &p->plan->occluders[child]))
             return true;
     }
@@ -472,10 +478,11 @@ static bool is_exposed_within(const planner *p, int facet_index, int group)
     return false;
 }
 
-static bool has_vertices(const planner *p, int group)
+static bool has_casters(const planner *p, int group)
 {
     for (int c = 0; c < p->plan->n_components; c++)
-        if (p->group[c] == group && p->plan->first_vertex[c] < p->plan->first_vertex[c + 1])
+        if (p->group[c] == group && casts(p, c) &&
+            p->plan->first_vertex[c] < p->plan->first_vertex[c + 1])
             return true;
     return false;
 }
@@ -491,6 +498,7 @@ static void expose_to_group(const planner *p, int group, const reach *r)
     }
 }
 
+/* Marks what the casters can come before in plan.is_exposed, which is all false. */
 static glint_status find_exposed(const planner *p, glint_error *error)
 {
     visibility *plan = p->plan;
@@ -498,14 +506,13 @@ static glint_status find_exposed(const planner *p, glint_error *error)
     if (!path) return error_no_memory(error);
     for (int g = 0; g < p->n_groups; g++)
         for (int h = 0; h < p->n_groups; h++) {
-            if (g == h || !has_vertices(p, g) || !has_vertices(p, h)) continue;
+            if (g == h || !has_casters(p, h)) continue;
             const reach r = reach_of(p, h, g, path);
             expose_to_group(p, g, &r);
         }
     for (int k = 0; k < plan->n_facets; k++) {
         const int group = p->group[p->m->polygons.items[k].component];
         plan->is_exposed[k] = plan->is_exposed[k] || is_exposed_within(p, k, group);
-        plan->n_exposed += plan->is_exposed[k];
     }
     free(path);
     return GLINT_OK;
@@ -521,6 +528,8 @@ static int compare_exposed(const void *a, const void *b)
 static glint_status list_exposed(const planner *p, glint_error *error)
 {
     visibility *plan = p->plan;
+    for (int k = 0; k < plan->n_facets; k++)
+        plan->n_exposed += plan->is_exposed[k];
     plan->exposed = malloc(((size_t)plan->n_exposed + 1) * sizeof *plan->exposed);
     if (!plan->exposed) return error_no_memory(error);
     int n = 0;
@@ -648,7 +657,8 @@ static bool allocate(planner *p)
     return p->vertices && p->planes && p->own && p->group && p->hinge && p->box && p->node_group;
 }
 
-static glint_status make_plan(planner *p, glint_error *error)
+/* As far as the trees. */
+static glint_status start_plan(planner *p, glint_error *error)
 {
     glint_status status = solids_find(p->m, &p->solids, error);
     if (status) return status;
@@ -661,10 +671,28 @@ static glint_status make_plan(planner *p, glint_error *error)
     find_groups(p);
     status = list_occluders(p, error);
     if (!status) status = build_trees(p, error);
+    return status;
+}
+
+static glint_status make_plan(planner *p, glint_error *error)
+{
+    glint_status status = start_plan(p, error);
     if (!status) status = find_exposed(p, error);
     if (!status) status = list_exposed(p, error);
     if (!status) status = renumber(p, error);
     return status;
+}
+
+static void planner_free(planner *p)
+{
+    solids_free(&p->solids);
+    free(p->vertices);
+    free(p->planes);
+    free(p->own);
+    free(p->group);
+    free(p->hinge);
+    free(p->box);
+    free(p->node_group);
 }
 
 glint_status visibility_make(const model *m, const visibility_component *components,
@@ -675,20 +703,35 @@ glint_status visibility_make(const model *m, const visibility_component *compone
     if (!plan) return error_no_memory(error);
     plan->n_facets = m->n_facets;
     plan->n_components = m->n_components;
-    planner p = {.m = m, .components = components, .plan = plan};
+    planner p = {.m = m, .components = components, .plan = plan, .caster = ALL_CAST};
     const glint_status status = make_plan(&p, error);
-    solids_free(&p.solids);
-    free(p.vertices);
-    free(p.planes);
-    free(p.own);
-    free(p.group);
-    free(p.hinge);
-    free(p.box);
-    free(p.node_group);
+    planner_free(&p);
     if (status)
         visibility_free(plan);
     else
         *out = plan;
+    return status;
+}
+
+glint_status visibility_count_exposed(const model *m, const visibility_component *components,
+                                      int *counts, glint_error *error)
+{
+    const int n = m->n_components;
+    visibility *plan = calloc(1, sizeof *plan);
+    if (!plan) return error_no_memory(error);
+    plan->n_facets = m->n_facets;
+    plan->n_components = n;
+    planner p = {.m = m, .components = components, .plan = plan};
+    glint_status status = start_plan(&p, error);
+    memset(counts, 0, (size_t)n * (size_t)n * sizeof *counts);
+    for (p.caster = 0; !status && p.caster < n; p.caster++) {
+        memset(plan->is_exposed, 0, (size_t)plan->n_facets * sizeof *plan->is_exposed);
+        status = find_exposed(&p, error);
+        for (int k = 0; !status && k < plan->n_facets; k++)
+            counts[m->polygons.items[k].component * n + p.caster] += plan->is_exposed[k];
+    }
+    planner_free(&p);
+    visibility_free(plan);
     return status;
 }
 

@@ -5,6 +5,10 @@
 #include "facets/solids.h"
 #include "facets/visibility.h"
 
+/* What rises over a facet's plane by less than this fraction of the model's size touches it: room
+ * for coordinates written with 10 digits. Shadows of such things are left out. */
+#define VISIBILITY_CONTACT 1e-10
+
 /* Something that casts one convex shadow: a polygon, or a closed convex body. */
 typedef struct occluder {
     int component;

@@ -5,11 +5,13 @@
 #include "brdf/table.h"
 #include "lightcurve/columns.h"
 #include "lightcurve/facts.h"
+#include "lightcurve/geometry.h"
 #include "scenario/read_material.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void report_time(const glint_scenario *s, text *t)
 {
@@ -65,6 +67,16 @@ static void report_hinge(const hinge *h, bool has_time, text *t)
         text_printf(t, " between %g and %g deg", h->limits[0] / DEG, h->limits[1] / DEG);
 }
 
+/* Lines on the primitives of a component, set off from its own. */
+static void report_primitives(const char *lines, text *t)
+{
+    for (const char *line = lines; line && *line;) {
+        const size_t n = strcspn(line, "\n");
+        text_printf(t, "            %.*s\n", (int)n, line);
+        line += n + (line[n] == '\n');
+    }
+}
+
 static glint_status report_components(const glint_scenario *s, text *t, glint_error *error)
 {
     const satellite *sat = &s->satellite;
@@ -92,8 +104,60 @@ static glint_status report_components(const glint_scenario *s, text *t, glint_er
             text_printf(t, "            x %.4g to %.4g, y %.4g to %.4g, z %.4g to %.4g m\n",
                         facts.lo_m[0], facts.hi_m[0], facts.lo_m[1], facts.hi_m[1], facts.lo_m[2],
                         facts.hi_m[2]);
+        report_primitives(component->report, t);
     }
     return GLINT_OK;
+}
+
+/* Facets of a component. */
+static int facets_of(const satellite *sat, int component)
+{
+    int n = 0;
+    for (int s = 0; s < sat->model.n_spans; s++)
+        if (sat->model.spans[s].component == component) n += sat->model.spans[s].n;
+    return n;
+}
+
+/* "  wing-north: 4 of 6 facets of bus, 1 of 2 of itself" for what it can shadow; nothing for what
+ * shadows nothing. */
+static void report_caster(const satellite *sat, const int *counts, int by, text *t)
+{
+    bool any = false;
+    for (int on = 0; on < sat->n_components; on++) {
+        const int count = counts[on * sat->n_components + by];
+        if (!count) continue;
+        if (!any) text_printf(t, "  shadow of %-20s", sat->components[by].name);
+        text_printf(t, "%s %d of %d facets of %s", any ? "," : " on", count, facets_of(sat, on),
+                    on == by ? "itself" : sat->components[on].name);
+        any = true;
+    }
+    if (any) text_char(t, '\n');
+}
+
+/* What can come before what at some angle of the hinges, seen from anywhere. */
+static glint_status report_shadows(const glint_scenario *s, text *t, glint_error *error)
+{
+    const satellite *sat = &s->satellite;
+    const size_t n = (size_t)sat->n_components;
+    visibility *plan;
+    glint_status status = satellite_plan_shadows(sat, &plan, error);
+    if (status) return status;
+    const int exposed = visibility_n_exposed(plan);
+    visibility_free(plan);
+    if (s->self_shadows == SHADOWS_NONE)
+        text_printf(t, "shadows     none computed; %d of %d facets can be shadowed or hidden\n",
+                    exposed, sat->model.n_facets);
+    else
+        text_printf(t, "shadows     %d of %d facets can be shadowed or hidden by others\n", exposed,
+                    sat->model.n_facets);
+    if (!exposed) return GLINT_OK;
+    int *counts = malloc(n * n * sizeof *counts);
+    if (!counts) return error_no_memory(error);
+    status = satellite_count_shadowed(sat, counts, error);
+    for (int by = 0; !status && by < sat->n_components; by++)
+        report_caster(sat, counts, by, t);
+    free(counts);
+    return status;
 }
 
 static void report_lobe(const brdf_lobe *lobe, text *t)
@@ -210,7 +274,8 @@ static glint_status describe(const glint_scenario *s, bool is_model, text *t, gl
                     (long long)s->geometry.n);
     else if (!is_model)
         report_time(s, t);
-    const glint_status status = report_components(s, t, error);
+    glint_status status = report_components(s, t, error);
+    if (!status) status = report_shadows(s, t, error);
     if (status) return status;
     report_materials(s, t);
     if (!is_model) report_run(s, t);

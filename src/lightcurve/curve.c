@@ -98,6 +98,9 @@ glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint
     if (!status) status = tile_plan_shadows(scenario, &c->plan, &error);
     if (!status)
         status = coverage_make(&scenario->satellite, scenario->n_bands, &c->watched, &error);
+    if (!status && c->plan)
+        status = tile_fit_threads(scenario->satellite.model.n_facets, c->n_threads, &c->n_threads,
+                                  &error);
     if (!status && (c->facts.failed || !make_workers(c) || !make_rows(c)))
         status = error_no_memory(&error);
     if (status) {

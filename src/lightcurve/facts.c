@@ -84,6 +84,13 @@ static uint64_t hash_satellite(uint64_t hash, const satellite *sat, int n_bands)
                     hash = hash_bytes(hash, lobe->numbers, lobe->n_numbers * sizeof *lobe->numbers);
             }
     const facet_list *polygons = &sat->model.polygons;
+    for (int k = 0; k < polygons->n; k++) {
+        const facet *f = &polygons->items[k];
+        hash = hash_bytes(hash, &f->material, sizeof f->material);
+        if (f->surface && polygons->surfaces[f->surface - 1].kind == SURFACE_SMOOTH)
+            hash = hash_bytes(hash, polygons->normals[f->first_vertex],
+                              (size_t)f->n_vertices * sizeof *polygons->normals);
+    }
     return hash_bytes(hash, polygons->vertices,
                       (size_t)polygons->n_vertices * sizeof *polygons->vertices);
 }
@@ -250,6 +257,19 @@ static void add_measured(const glint_scenario *s, fact_list *out)
         }
 }
 
+/* Lobes that are too narrow for the meshes that they are on. */
+static void add_flicker(const glint_scenario *s, fact_list *out)
+{
+    for (int m = 0; m < s->satellite.n_materials; m++) {
+        const scenario_material *material = &s->satellite.materials[m];
+        if (material->flicker_rad > 0.0)
+            add(out, "mesh_flickers",
+                "%s: its lobe is narrower than its mesh, which bends by %.3g deg from facet to "
+                "facet",
+                material->name, material->flicker_rad / DEG);
+    }
+}
+
 void facts_of_orbit(const glint_scenario *s, fact_list *out)
 {
     add_origin(s, out);
@@ -270,6 +290,7 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
             ? "none: shadows that parts cast on each other are neglected"
             : "exact: facets shine with the area that is both lit by the Sun and seen by the "
               "observer");
+    add_flicker(s, out);
     static const char *const DISCS[] = {
         [SOLAR_UNIFORM] = "uniform: light is averaged over the Sun's disc, whose own shadows have "
                           "sharp edges (those of its centre)",

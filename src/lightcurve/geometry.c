@@ -162,6 +162,7 @@ static void keep_for_visibility(const satellite *sat, const moment *m, const dou
 {
     copy3(m->sun, out->sun[k]);
     copy3(m->observer, out->observer[k]);
+    if (worker->body) memcpy(worker->body[k], body_gcrs, sizeof worker->body[k]);
     if (worker->poses)
         place_components(sat, body_gcrs, (const double(*)[9])worker->component_gcrs,
                          worker->poses + (size_t)k * (size_t)sat->n_components);
@@ -317,42 +318,58 @@ glint_status geometry_fill_at(const glint_scenario *s, const frame_grid *grid, u
     return GLINT_OK;
 }
 
-glint_status satellite_plan_shadows(const satellite *sat, visibility **out, glint_error *error)
+/* The components as the visibility stage takes them, from malloc. NULL when memory is out. */
+static visibility_component *components_for_plan(const satellite *sat)
 {
     const size_t n = (size_t)sat->n_components;
     double body[9], (*component_body)[9] = calloc(n, sizeof *component_body);
     visibility_pose *poses = calloc(n, sizeof *poses);
     visibility_component *components = calloc(n, sizeof *components);
-    *out = NULL;
-    glint_status status = GLINT_INTERNAL;
-    if (component_body && poses && components) {
-        mat_identity(body);
-        for (size_t k = 0; k < n; k++) { /* at angle 0 of all hinges but the fixed ones */
-            const size_t c = (size_t)sat->order[k];
-            const scenario_component *part = &sat->components[c];
-            const bool turned = part->has_hinge && part->hinge.drive == HINGE_FIXED;
-            double turn[9], angle = 0;
-            if (turned)
-                (void)hinge_angle(&part->hinge, 0, NULL, &angle, NULL); /* fixed ones hold */
-            hinge_matrix(&part->hinge, angle, turn);
-            mat_mul(turn, part->parent < 0 ? body : component_body[part->parent],
-                    component_body[c]);
-        }
-        place_components(sat, body, (const double(*)[9])component_body, poses);
-        for (size_t c = 0; c < n; c++) {
-            const scenario_component *part = &sat->components[c];
-            components[c] =
-                (visibility_component){.parent = part->parent,
-                                       .moves = part->has_hinge && part->hinge.drive != HINGE_FIXED,
-                                       .pose = poses[c]};
-            copy3(part->hinge.axis, components[c].axis);
-        }
-        status = visibility_make(&sat->model, components, out, error);
-    } else {
-        error_no_memory(error);
+    if (!component_body || !poses || !components) {
+        free(component_body);
+        free(poses);
+        free(components);
+        return NULL;
+    }
+    mat_identity(body);
+    for (size_t k = 0; k < n; k++) { /* at angle 0 of all hinges but the fixed ones */
+        const size_t c = (size_t)sat->order[k];
+        const scenario_component *part = &sat->components[c];
+        const bool turned = part->has_hinge && part->hinge.drive == HINGE_FIXED;
+        double turn[9], angle = 0;
+        if (turned) (void)hinge_angle(&part->hinge, 0, NULL, &angle, NULL); /* fixed ones hold */
+        hinge_matrix(&part->hinge, angle, turn);
+        mat_mul(turn, part->parent < 0 ? body : component_body[part->parent], component_body[c]);
+    }
+    place_components(sat, body, (const double(*)[9])component_body, poses);
+    for (size_t c = 0; c < n; c++) {
+        const scenario_component *part = &sat->components[c];
+        components[c] =
+            (visibility_component){.parent = part->parent,
+                                   .moves = part->has_hinge && part->hinge.drive != HINGE_FIXED,
+                                   .pose = poses[c]};
+        copy3(part->hinge.axis, components[c].axis);
     }
     free(component_body);
     free(poses);
+    return components;
+}
+
+glint_status satellite_plan_shadows(const satellite *sat, visibility **out, glint_error *error)
+{
+    *out = NULL;
+    visibility_component *components = components_for_plan(sat);
+    if (!components) return error_no_memory(error);
+    const glint_status status = visibility_make(&sat->model, components, out, error);
+    free(components);
+    return status;
+}
+
+glint_status satellite_count_shadowed(const satellite *sat, int *counts, glint_error *error)
+{
+    visibility_component *components = components_for_plan(sat);
+    if (!components) return error_no_memory(error);
+    const glint_status status = visibility_count_exposed(&sat->model, components, counts, error);
     free(components);
     return status;
 }

@@ -35,6 +35,7 @@ typedef struct geometry_worker {
         *component_gcrs)[9]; /* n_components: v_component = R v_gcrs (or body), scratch; owned */
     visibility_pose *poses;  /* TILE x n_components, in the frame of tile_geometry.sun; owned; NULL
                                 where  nobody asks where components are */
+    double (*body)[9];       /* TILE; v_body = R v of that frame; owned; NULL likewise */
 } geometry_worker;
 
 /* Fills a tile and the light in each of the n_components frames.
@@ -66,6 +67,10 @@ void sky_place(const glint_scenario *s, const frame_set *frames, const double gc
 /* Plans the shadows that the satellite's parts cast on each other. Errors: GLINT_INTERNAL (memory).
  */
 glint_status satellite_plan_shadows(const satellite *sat, visibility **out, glint_error *error);
+
+/* counts[on n + by] of n = sat->n_components: visibility_count_exposed. Errors: GLINT_INTERNAL
+ * (memory). */
+glint_status satellite_count_shadowed(const satellite *sat, int *counts, glint_error *error);
 
 /* Satellite as seen from a site at reception time t_s: all in GCRS. */
 typedef struct sighting {

@@ -1,5 +1,6 @@
 #include "lightcurve/tile.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,6 +22,22 @@ glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_
         *out = NULL;
     }
     return status;
+}
+
+glint_status tile_fit_threads(int n_facets, int wanted, int *n_threads, glint_error *error)
+{
+    /* What visibility_scratch_make takes for a facet, bytes: its corners and its bounds as the Sun
+     * and as the observer see them; rather too much. */
+    static const double VIEWS = 512;
+    const double bytes = n_facets * (TILE * sizeof(double) + VIEWS);
+    if (bytes > TILE_MOST_SHADOW_BYTES)
+        return error_set(error, GLINT_INPUT, PLACE_NONE,
+                         "the shadows of %d facets take %.1f GB of work space; expected at most "
+                         "%.1f GB: take fewer facets, or self_shadows = \"none\"",
+                         n_facets, bytes * 1e-9, TILE_MOST_SHADOW_BYTES * 1e-9);
+    const double fitting = floor(TILE_MOST_SHADOW_BYTES / fmax(bytes, 1.0));
+    *n_threads = fitting < wanted ? (int)fitting : wanted;
+    return GLINT_OK;
 }
 
 glint_status tile_worker_make(const glint_scenario *s, const visibility *plan, tile_worker *w,
@@ -46,6 +63,7 @@ void tile_worker_free(tile_worker *w)
     free(w->x);
     free(w->geometry.component_gcrs);
     free(w->geometry.poses);
+    free(w->geometry.body);
     free(w->visible);
     visibility_scratch_free(w->scratch);
     *w = (tile_worker){0};
@@ -65,14 +83,17 @@ static glint_status find_visible(const glint_scenario *s, tile_worker *w, glint_
     return GLINT_OK;
 }
 
-/* The Sun's disc in every lane; a point in those that nobody asks for. */
-static void fill_disc(const glint_scenario *s, const tile_geometry *tile, source_disc *disc)
+/* Fills in the Sun's disc in every lane, a point in those that nobody asks for; false where all of
+ * them take the Sun for a point. */
+static bool fill_disc(const glint_scenario *s, const tile_geometry *tile, source_disc *disc)
 {
+    if (s->solar_disc == SOLAR_POINT) return false;
     source_disc_start(disc, s->solar_disc == SOLAR_LIMB_DARKENED);
     for (int k = 0; k < TILE; k++) {
         const bool bright = k < tile->n && tile->seen[k] && tile->sun_weight[k] > 0;
         source_disc_set(disc, k, bright ? tile->sun_radius[k] : 0);
     }
+    return true;
 }
 
 glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const photometry_rows *rows,
@@ -84,8 +105,7 @@ glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const phot
     }
     if (w->tile.any_bright) {
         source_disc disc;
-        const bool is_disc = s->solar_disc != SOLAR_POINT;
-        if (is_disc) fill_disc(s, &w->tile, &disc);
+        const bool is_disc = fill_disc(s, &w->tile, &disc);
         model_sum(&s->satellite.model, w->lights, is_disc ? &disc : NULL, w->visible, w->x);
     }
     photometry_fill(s, &w->tile, w->tile.any_bright ? w->x : NULL, rows);

@@ -19,6 +19,13 @@ typedef struct tile_worker {
  * be. Errors: GLINT_INTERNAL (memory). */
 glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_error *error);
 
+/* Work space of all threads for shadows, bytes: more is neither needed nor to be had everywhere. */
+#define TILE_MOST_SHADOW_BYTES (4.0 * 1024 * 1024 * 1024)
+
+/* How many of `wanted` (1 or more) threads have room for the shadows of n_facets facets in
+ * TILE_MOST_SHADOW_BYTES. Errors: GLINT_INPUT when not even one has. */
+glint_status tile_fit_threads(int n_facets, int wanted, int *n_threads, glint_error *error);
+
 /* plan: of tile_plan_shadows, must outlive the worker. Errors: GLINT_INTERNAL (memory);
  * tile_worker_free ends *out in every case. */
 glint_status tile_worker_make(const glint_scenario *s, const visibility *plan, tile_worker *out,

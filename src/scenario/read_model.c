@@ -2,6 +2,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "brdf/sharpness.h"
 #include "scenario/read_material.h"
 
 #include <math.h>
@@ -17,8 +18,10 @@ void satellite_free(satellite *sat)
     for (int m = 0; m < sat->n_materials; m++)
         scenario_material_free(&sat->materials[m]);
     free(sat->materials);
-    for (int c = 0; c < sat->n_components; c++)
+    for (int c = 0; c < sat->n_components; c++) {
         hinge_free(&sat->components[c].hinge);
+        free(sat->components[c].report);
+    }
     free(sat->components);
     free(sat->order);
     model_free(&sat->model);
@@ -71,7 +74,7 @@ static void read_names(reading *rd, reader *r, const char *key, primitive_spec *
     if (!table || table->n_children == 0) return;
     spec->names = calloc((size_t)table->n_children, sizeof *spec->names);
     if (!spec->names) {
-        r->status = errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+        r->status = errors_no_memory(r->errors);
         return;
     }
     for (int i = 0; i < table->n_children; i++) {
@@ -132,7 +135,7 @@ static void read_points(reader *r, const primitive_key *key, primitive_spec *spe
     }
     double(*points)[3] = calloc((size_t)node->n_children, sizeof *points);
     if (!points) {
-        r->status = errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+        r->status = errors_no_memory(r->errors);
         return;
     }
     for (int i = 0; i < node->n_children; i++)
@@ -250,6 +253,25 @@ static void read_copies(reading *rd, reader *r, primitive_spec *spec)
     if (reader_choice(r, "mirror", MIRRORS, 3, 0, &mirror)) spec->mirror = mirror + 1;
 }
 
+/* Adds lines to the report of a component, and frees them. */
+static void add_report(reading *rd, scenario_component *component, text *lines)
+{
+    if (lines->failed) reading_no_memory(rd);
+    if (!component->report) {
+        component->report = lines->data;
+        return;
+    }
+    text both = {0};
+    text_printf(&both, "%s%s", component->report, lines->data ? lines->data : "");
+    text_free(lines);
+    if (both.failed) {
+        reading_no_memory(rd);
+        return;
+    }
+    free(component->report);
+    component->report = both.data;
+}
+
 static void read_primitive(reading *rd, const primitive_kind *kind, const toml_node *table,
                            int component, facet_list *facets)
 {
@@ -261,8 +283,11 @@ static void read_primitive(reading *rd, const primitive_kind *kind, const toml_n
     for (int k = 0; k < kind->n_keys; k++)
         read_primitive_key(rd, &r, &spec, k);
     read_copies(rd, &r, &spec);
+    text report = {0};
+    spec.report = &report;
     glint_status status = reader_done(&r);
     if (status == GLINT_OK) status = primitive_add(&spec, component, facets, rd->errors);
+    add_report(rd, &rd->s->satellite.components[component], &report);
     if (status == GLINT_OK && facets->n > MOST_FACETS)
         status = errors_add(rd->errors, GLINT_INPUT, table->where,
                             "the satellite has more than %d facets; expected fewer", MOST_FACETS);
@@ -329,15 +354,6 @@ static int named_component(reading *rd, reader *r, const toml_node *node)
     return found;
 }
 
-static void refuse_planned_primitives(reader *r)
-{
-    static const char *const PLANNED[] = {"cylinder", "cone", "disc", "annulus",
-                                          "dish",     "wing", "boom", "mesh"};
-    for (size_t k = 0; k < sizeof PLANNED / sizeof *PLANNED; k++)
-        if (!primitive_kind_named(PLANNED[k]))
-            reader_refuse(r, PLANNED[k], "this version has plate, facet, box, prism and sphere");
-}
-
 static void read_component(reading *rd, const toml_node *table, int c, facet_list *facets)
 {
     scenario_component *component = &rd->s->satellite.components[c];
@@ -357,7 +373,6 @@ static void read_component(reading *rd, const toml_node *table, int c, facet_lis
         for (int i = 0; list && i < list->n_children; i++)
             read_primitive(rd, kind, &list->children[i], c, facets);
     }
-    refuse_planned_primitives(&r);
     reading_done(rd, &r);
 }
 
@@ -471,6 +486,59 @@ static void compile(reading *rd, facet_list *facets, place where)
         reading_note(rd, errors_take(rd->errors, &error, where));
 }
 
+/* The narrowest lobe of a material in all bands, rad. */
+static double narrowest_width(const scenario_material *material, int n_bands)
+{
+    double width_rad = HUGE_VAL;
+    for (int b = 0; b < n_bands; b++)
+        width_rad = fmin(width_rad, brdf_material_width(&material->bands[b]));
+    return width_rad;
+}
+
+/* Flat facets of a mesh that bend by more than a lobe is wide make it flicker. */
+static void warn_of_mesh(reading *rd, scenario_material *material, double width_rad,
+                         double bend_rad)
+{
+    if (!(width_rad < 0.5 * bend_rad)) return;
+    material->flicker_rad = bend_rad;
+    errors_warn(rd->errors, material->where,
+                "the lobe of '%s' is %.3g deg wide, and the mesh made of it bends by %.3g deg "
+                "from facet to facet: it flickers; smooth normals in the file, or smooth_deg, "
+                "make it steady",
+                material->name, width_rad / DEG, bend_rad / DEG);
+}
+
+static bool has_mesh(const model *m)
+{
+    for (int k = 0; k < m->n_facets; k++)
+        if (m->polygons.items[k].imported) return true;
+    return false;
+}
+
+static void warn_of_meshes(reading *rd)
+{
+    satellite *sat = &rd->s->satellite;
+    const size_t n = (size_t)sat->n_materials;
+    if (!has_mesh(&sat->model)) return;
+    double *numbers = malloc(2 * n * sizeof *numbers);
+    if (!numbers) {
+        reading_no_memory(rd);
+        return;
+    }
+    double *widths_rad = numbers, *bends_rad = numbers + n;
+    bool some_lobe = false; /* that could flicker; else nobody need look at the edges */
+    for (size_t m = 0; m < n; m++) {
+        widths_rad[m] = narrowest_width(&sat->materials[m], rd->s->n_bands);
+        some_lobe |= widths_rad[m] < 0.5 * MODEL_MOST_BEND_RAD;
+    }
+    if (some_lobe && model_material_bends(&sat->model, bends_rad, NULL))
+        reading_no_memory(rd);
+    else if (some_lobe)
+        for (size_t m = 0; m < n; m++)
+            warn_of_mesh(rd, &sat->materials[m], widths_rad[m], bends_rad[m]);
+    free(numbers);
+}
+
 void read_model_tables(reading *rd, reader *r)
 {
     const glint_status before = rd->status;
@@ -481,6 +549,7 @@ void read_model_tables(reading *rd, reader *r)
     const place where = {r->table->where.file, 0, 0};
     if (rd->status == GLINT_OK && r->status == GLINT_OK) compile(rd, &facets, where);
     if (rd->status == GLINT_OK && r->status == GLINT_OK) warn_of_materials(rd);
+    if (rd->status == GLINT_OK && r->status == GLINT_OK) warn_of_meshes(rd);
     facet_list_free(&facets);
     reading_note(rd, before);
 }

@@ -22,6 +22,8 @@ typedef struct scenario_material {
     brdf_material *bands;   /* owned; n_bands */
     double holds_um[2]; /* wavelengths from and to which the parameters hold; 0 where not said */
     bool used;          /* by some facet */
+    double flicker_rad; /* by how much meshes of it bend from facet to facet, where its lobe is too
+                           narrow for that; else 0 */
 } scenario_material;
 
 /* A part of the satellite and how it turns. */
@@ -30,6 +32,7 @@ typedef struct scenario_component {
     int parent;       /* index, -1 for none */
     bool has_hinge;
     hinge hinge;
+    char *report; /* owned; lines on what its primitives became, for people; NULL: none */
 } scenario_component;
 
 /* The satellite: a model file, or tables in the scenario. */
