@@ -112,6 +112,8 @@ typedef struct glint_row {
     const double *magnitude;       /* n_bands; only where flux_ratio > 0, else 0 */
     const double *share_material;  /* n_materials, of the first band's flux; all 0 when dark */
     const double *share_component; /* n_components */
+    const double *earthshine_flux_ratio; /* n_bands: the part of flux_ratio that came by way of the
+                                            Earth; NULL where the scenario asks for no earthshine */
 } glint_row;
 
 /* An output column. */

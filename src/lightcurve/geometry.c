@@ -220,6 +220,8 @@ static glint_status fill_row(const glint_scenario *s, const frame_grid *grid, un
     const double au = AU_M / seen->sun_distance_m;
     out->sun_radius[k] = asin(SUN_RADIUS_M / seen->sun_distance_m);
     out->sun_weight[k] = out->sunlit[k] * au * au;
+    out->sun_distance_m[k] = seen->sun_distance_m;
+    copy3(m->r_m, out->satellite_m[k]);
     fill_site(s, seen, k, out);
     if (wanted & GEOMETRY_HEIGHT) {
         double itrs[3], latitude, longitude;

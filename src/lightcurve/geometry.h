@@ -21,6 +21,8 @@ typedef struct tile_geometry {
     double sun_weight[TILE];  /* sunlit x (1 au / distance of the Sun)^2 */
     double azimuth[TILE], elevation[TILE], sun_elevation[TILE]; /* of a site */
     double height_m[TILE]; /* geodetic, of the satellite; only with GEOMETRY_HEIGHT */
+    double satellite_m[TILE][3]; /* from the Earth's centre, GCRS; not where directions are given */
+    double sun_distance_m[TILE]; /* from the satellite; likewise */
     bool seen[TILE];       /* not below the horizon */
     bool any_bright;       /* some lane is seen and sunlit: the sum is needed */
     double sun[TILE][3], observer[TILE][3]; /* unit; GCRS, or body where directions are given */
