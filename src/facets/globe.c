@@ -16,7 +16,8 @@ double globe_radiance(const globe_view *view, const brdf_material *ground, const
     const double down = -dot3(to, view->up), d = view->distance;
     const double square = 1.0 - d * d * (1.0 - down * down); /* of the cosine at the ground */
     if (!(down > 0.0 && square > 0.0)) return 0.0;
-    const double out = sqrt(square), along = d * down - out; /* along: as far as the ground, radii */
+    const double out = sqrt(square),
+                 along = d * down - out; /* along: as far as the ground, radii */
     double normal[3];
     for (int j = 0; j < 3; j++)
         normal[j] = d * view->up[j] + along * to[j];
@@ -84,8 +85,8 @@ static const gauss_rule *rule_of(const globe *g, int n)
 
 /* --- lobes that nodes resolve, and the others --- */
 
-/* The parameter that is a model's diffuse part by itself; -1: it has none. What is left of the model
- * without it is its lobe alone (physics page, section 3: the models are sums). */
+/* The parameter that is a model's diffuse part by itself; -1: it has none. What is left of the
+ * model without it is its lobe alone (physics page, section 3: the models are sums). */
 static int diffuse_param(const brdf_model *brdf)
 {
     static const char *const NAMES[] = {"rho_d", "R_d", "k_d"};
@@ -95,8 +96,8 @@ static int diffuse_param(const brdf_model *brdf)
     return -1;
 }
 
-/* Splits a narrow lobe: *narrow is what must be looked at closely, and `wide` minus that is left for
- * the nodes; false: nothing is left for them. */
+/* Splits a narrow lobe: *narrow is what must be looked at closely, and `wide` minus that is left
+ * for the nodes; false: nothing is left for them. */
 static bool split_lobe(const brdf_lobe *lobe, brdf_lobe *narrow)
 {
     const int diffuse = diffuse_param(lobe->model);
@@ -323,7 +324,8 @@ bool globe_look(const globe *g, globe_scratch *scratch, int which, const globe_v
     cross3(view->up, lane->towards, lane->across);
     lane->sun_side = sqrt(1.0 - lane->sun_up * lane->sun_up);
     /* The central angle at which rings begin to cross the terminator, and its emission angle. */
-    const double zenith = acos(lane->sun_up), crossing = fabs(0.5 * PI - zenith), d = view->distance;
+    const double zenith = acos(lane->sun_up), crossing = fabs(0.5 * PI - zenith),
+                 d = view->distance;
     const bool crosses = crossing < acos(1.0 / d), day = zenith < 0.5 * PI;
     const double v = crosses ? atan2(d * sin(crossing), d * cos(crossing) - 1.0) : 0.5 * PI;
     if (day) add_rings(g, lane, 0.0, v, false);
@@ -388,15 +390,14 @@ static bool set_node(const globe *g, globe_scratch *s, const visibility_pose *po
     for (int lane = 0; lane < BRDF_TILE; lane++) {
         const globe_lane *l = &s->lanes[lane];
         double azimuth[2], weight, to[3];
-        const bool has =
-            j < l->n_rings && node_at(l, &l->rings[j], k, azimuth, &weight, to);
+        const bool has = j < l->n_rings && node_at(l, &l->rings[j], k, azimuth, &weight, to);
         any |= has;
         for (int b = 0; b < n_bands; b++) {
             double *own = s->weight + b * BRDF_TILE;
-            own[lane] = !has                     ? 0.0
-                        : g->same_ground[b] < b ? s->weight[g->same_ground[b] * BRDF_TILE + lane]
-                                                : weight * ground_at(l, &l->rings[j], azimuth,
-                                                                     &g->ground[b]);
+            own[lane] = !has ? 0.0
+                        : g->same_ground[b] < b
+                            ? s->weight[g->same_ground[b] * BRDF_TILE + lane]
+                            : weight * ground_at(l, &l->rings[j], azimuth, &g->ground[b]);
         }
         if (has) turn_light(g, s, poses, lane, to);
     }
@@ -418,8 +419,12 @@ static void add_node(const globe *g, globe_scratch *s, const double *visible, do
             double *own = s->own + same * BRDF_TILE, *weight = s->weight + b * BRDF_TILE;
             if (same == b) {
                 memset(own, 0, BRDF_TILE * sizeof *own);
-                brdf_material_tile(&g->matter[first + (size_t)b].wide, &span->facets,
-                                   &s->lights[span->component], seen, own);
+                const globe_matter *matter = &g->matter[first + (size_t)b];
+                const brdf_light *light = &s->lights[span->component];
+                brdf_material_tile(&matter->wide, &span->facets, light, seen, own);
+                for (int n = 0; n < matter->n_narrow; n++)
+                    if (!matter->shapes[n].specular)
+                        globe_add_outside(matter, n, &span->facets, light, seen, own);
             }
             double *sum = x + ((size_t)b * (size_t)m->n_spans + (size_t)k) * BRDF_TILE;
             for (int lane = 0; lane < BRDF_TILE; lane++)

@@ -1,5 +1,5 @@
-/* globe.h: sunlight that comes by way of a globe: the lit part of the Earth that the satellite sees,
- * as a source that fills a part of the sky.
+/* globe.h: sunlight that comes by way of a globe: the lit part of the Earth that the satellite
+ * sees, as a source that fills a part of the sky.
  *
  * Rings around the point below the satellite carry nodes: directions in which light arrives, with
  * the irradiance that each brings. Rings lie at Gauss's points in the angle at which light leaves
@@ -39,8 +39,8 @@ typedef struct globe globe;
 typedef struct globe_scratch globe_scratch;
 
 /* Prepares a globe as a source for a model. m: borrowed until globe_free. ground: how the globe
- * reflects in each of the model's bands, isotropic, no mirror, no lobe below GLOBE_NARROW; borrowed.
- * rings: from limb to limb through the point below the satellite there are twice as many,
+ * reflects in each of the model's bands, isotropic, no mirror, no lobe below GLOBE_NARROW;
+ * borrowed. rings: from limb to limb through the point below the satellite there are twice as many,
  * GLOBE_FEWEST_RINGS to GLOBE_MOST_RINGS, taken up to the next multiple of 4; 0: as the widths of
  * the lobes ask for. Errors: GLINT_INTERNAL (memory). */
 glint_status globe_make(const model *m, const brdf_material *ground, int rings, globe **out,
@@ -61,9 +61,10 @@ bool globe_look(const globe *g, globe_scratch *scratch, int lane, const globe_vi
 
 /* The light of the globe for one tile: as model_sum, but each band's sum carries the irradiance of
  * its nodes over that of the Sun at 1 au, and the source is what globe_look has laid out. poses:
- * BRDF_TILE x n_components, of which the orientations count, into the frame of the views; only those
- * of lanes that are not dark are read. lights: one per component, of which the observer's directions
- * count. visible: as model_sum takes it. Pieces of curved surfaces count with their own normals. */
+ * BRDF_TILE x n_components, of which the orientations count, into the frame of the views; only
+ * those of lanes that are not dark are read. lights: one per component, of which the observer's
+ * directions count. visible: as model_sum takes it. Pieces of curved surfaces count with their own
+ * normals. */
 void globe_sum(const globe *g, globe_scratch *scratch, const visibility_pose *poses,
                const brdf_light *lights, const double *visible, double *x);
 

@@ -60,7 +60,12 @@ struct globe_scratch {
     double *own;        /* owned; n_bands x BRDF_TILE */
 };
 
-/* Adds what the narrow lobes of all facets show of the globe. */
+/* Adds what is left of a narrow lobe away from its highlight, for one node's light: as
+ * brdf_material_tile. */
+void globe_add_outside(const globe_matter *matter, int which, const brdf_facets *facets,
+                       const brdf_light *light, const double *visible, double *sum);
+
+/* Adds what the narrow lobes of all facets show of the globe around their highlights. */
 void globe_add_highlights(const globe *g, globe_scratch *s, const visibility_pose *poses,
                           const double *visible, double *x);
 

@@ -74,7 +74,8 @@ static glint_status find_visible(const model *m, const visibility *plan,
     const double *observer = tile->observer[k];
     glint_status status =
         visibility_fill(plan, scratch, poses, observer, observer, k, e->visible, error);
-    if (!status) status = visibility_fill(plan, scratch, poses, centre, observer, k, e->joint, error);
+    if (!status)
+        status = visibility_fill(plan, scratch, poses, centre, observer, k, e->joint, error);
     if (!status) take_joint(m, poses, centre, k, e);
     return status;
 }
@@ -92,13 +93,13 @@ glint_status earthshine_fill(const glint_scenario *s, const visibility *plan,
         const bool wanted = k < tile->n && tile->seen[k];
         glint_status status = wanted ? view_of(s, tile, k, &view, error) : GLINT_OK;
         if (status) return status;
-        const bool lit = globe_look(s->earth.source, e->scratch, k, wanted ? &view : NULL,
-                                    plan ? centre : NULL);
+        const bool lit =
+            globe_look(s->earth.source, e->scratch, k, wanted ? &view : NULL, plan ? centre : NULL);
         *any |= lit;
         if (lit && plan)
-            status = find_visible(m, plan, scratch,
-                                  worker->poses + (size_t)k * (size_t)m->n_components, tile, centre,
-                                  k, e, error);
+            status =
+                find_visible(m, plan, scratch, worker->poses + (size_t)k * (size_t)m->n_components,
+                             tile, centre, k, e, error);
         if (status) return status;
     }
     if (*any) globe_sum(s->earth.source, e->scratch, worker->poses, lights, e->visible, e->x);

@@ -19,8 +19,8 @@ glint_status earthshine_make(const glint_scenario *s, bool has_shadows, earthshi
 void earthshine_free(earthshine *e);
 
 /* Fills e->x from what geometry_fill has left (poses among it), for the rows that are seen; *any:
- * whether there is any light. plan, scratch: of the shadows, or NULL. A facet that sees the centre of
- * the lit ground (the mean direction of its light) shines with the part of its area that is open
+ * whether there is any light. plan, scratch: of the shadows, or NULL. A facet that sees the centre
+ * of the lit ground (the mean direction of its light) shines with the part of its area that is open
  * both to that and to the observer, another facet with the part that the observer sees. Errors:
  * GLINT_INPUT when the satellite is not above the Earth's sphere; those of visibility_fill. */
 glint_status earthshine_fill(const glint_scenario *s, const visibility *plan,

@@ -389,7 +389,8 @@ static void add_earthshine(const glint_scenario *s, fact_list *out)
         return;
     }
     add(out, "earthshine",
-        "from a sphere of %.7g km, lit by the Sun's centre, in %d rings of directions; no clouds, no "
+        "from a sphere of %.7g km, lit by the Sun's centre, in %d rings of directions; no clouds, "
+        "no "
         "seasons; %s; pieces of curved surfaces count as flat",
         s->earth.radius_m * 1e-3, s->earth.source ? globe_rings(s->earth.source) : 0,
         s->self_shadows == SHADOWS_NONE

@@ -28,8 +28,7 @@ typedef struct lane_light {
 /* Flux ratio of one span in one band. */
 static double span_flux(const lane_light *l, int band, int span)
 {
-    const size_t at =
-        ((size_t)band * (size_t)l->m->n_spans + (size_t)span) * TILE + (size_t)l->k;
+    const size_t at = ((size_t)band * (size_t)l->m->n_spans + (size_t)span) * TILE + (size_t)l->k;
     double flux = 0;
     if (l->sun) flux += l->sun_weight * l->sun[at];
     if (l->earth) flux += l->earth_weight * l->earth[at];
@@ -133,8 +132,7 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
             if (flux[b] > 0)
                 magnitude[b] =
                     magnitude_of(flux[b], s->sun_magnitude[b]) + s->extinction[b] * airmass;
-            if (b == 0 && flux[0] > 0 && s->shares)
-                fill_shares(&light, material, component);
+            if (b == 0 && flux[0] > 0 && s->shares) fill_shares(&light, material, component);
         }
         glint_row *r = &out->rows[k];
         fill_place(s, g, k, r);

@@ -106,9 +106,8 @@ glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const phot
     }
     bool has_earth = false;
     if (s->earth.source) {
-        const glint_status status =
-            earthshine_fill(s, w->plan, w->scratch, &w->geometry, &w->tile, w->lights, &w->earth,
-                            &has_earth, error);
+        const glint_status status = earthshine_fill(s, w->plan, w->scratch, &w->geometry, &w->tile,
+                                                    w->lights, &w->earth, &has_earth, error);
         if (status) return status;
     }
     photometry_fill(s, &w->tile, w->tile.any_bright ? w->x : NULL, has_earth ? w->earth.x : NULL,

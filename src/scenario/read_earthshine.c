@@ -62,8 +62,8 @@ static void read_grounds(reading *rd, reader *r)
     brdf_material_free(&any);
     for (int b = 0; b < s->n_bands && !r->status; b++) {
         read_reflection(rd, r, s->bands[b], &s->earth.ground[b]);
-        const bool repeated = b > 0 && !r->status &&
-                              brdf_material_same(&s->earth.ground[b - 1], &s->earth.ground[b]);
+        const bool repeated =
+            b > 0 && !r->status && brdf_material_same(&s->earth.ground[b - 1], &s->earth.ground[b]);
         if (!r->status && b > 0 && !repeated) check_ground(r, &s->earth.ground[b]);
     }
 }
@@ -90,8 +90,7 @@ static void read_albedo(reading *rd, reader *r)
 static void read_table(reading *rd, const toml_node *node)
 {
     /* The Earth's equatorial radius; from a shell to what is still below every satellite. */
-    static const param_info RADIUS = {
-        "radius_km", "km", "", 6000, 6500, EARTH_RADIUS_M * 1e-3, 0};
+    static const param_info RADIUS = {"radius_km", "km", "", 6000, 6500, EARTH_RADIUS_M * 1e-3, 0};
     earth_light *earth = &rd->s->earth;
     reader r = reader_start(node, "earthshine", rd->errors);
     double radius_km;
