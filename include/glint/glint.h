@@ -124,6 +124,8 @@ typedef struct glint_row {
     const double *share_material;  /* n_materials, of the first band's flux; all 0 when dark */
     const double *share_component; /* n_components */
     const double *share_surface;   /* n_surfaces of glint_shares; NULL in other runs */
+    const double *earthshine_flux_ratio; /* n_bands: the part of flux_ratio that came by way of the
+                                            Earth; NULL where the scenario asks for no earthshine */
 } glint_row;
 
 /* An output column. */

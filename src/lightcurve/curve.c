@@ -30,6 +30,7 @@ struct glint_curve {
     glint_row *rows, *chosen; /* owned; block */
     double *flux_ratio, *magnitude, *share_material, *share_component; /* owned */
     double *share_surface;  /* owned; NULL where surfaces are not told apart */
+    double *earthshine;     /* owned; NULL where the scenario wants none */
     coverage watched;       /* measured materials */
     unsigned char *outside; /* owned; block x watched.n: of coverage_mark */
     int64_t *n_outside;     /* owned; watched.n: rows handed out so far of which that holds */
@@ -52,7 +53,8 @@ static bool make_rows(glint_curve *c)
     const size_t n_bands = (size_t)c->s->n_bands, n_materials = (size_t)m->n_materials,
                  n_components = (size_t)m->n_components;
     const size_t n_surfaces = (size_t)c->s->satellite.n_surfaces;
-    const size_t width = 2 * n_bands + n_materials + n_components + n_surfaces;
+    const bool has_earth = c->s->earth.wanted;
+    const size_t width = (has_earth ? 3 : 2) * n_bands + n_materials + n_components + n_surfaces;
     const size_t fitting = BLOCK_NUMBERS / width / TILE * TILE;
     c->block = fitting < TILE ? TILE : fitting > BLOCK_MOST ? BLOCK_MOST : fitting;
     c->rows = calloc(c->block, sizeof *c->rows);
@@ -62,10 +64,12 @@ static bool make_rows(glint_curve *c)
     c->share_material = calloc(c->block * n_materials, sizeof(double));
     c->share_component = calloc(c->block * n_components, sizeof(double));
     if (n_surfaces) c->share_surface = calloc(c->block * n_surfaces, sizeof(double));
+    if (has_earth) c->earthshine = calloc(c->block * n_bands, sizeof(double));
     c->outside = calloc(c->block * (size_t)c->watched.n + 1, sizeof *c->outside);
     c->n_outside = calloc((size_t)c->watched.n + 1, sizeof *c->n_outside);
-    return c->outside && c->n_outside && c->rows && c->chosen && c->flux_ratio && c->magnitude &&
-           c->share_material && c->share_component && (c->share_surface || !n_surfaces);
+    return c->outside && c->n_outside && (c->earthshine || !has_earth) && c->rows && c->chosen &&
+           c->flux_ratio && c->magnitude && c->share_material && c->share_component &&
+           (c->share_surface || !n_surfaces);
 }
 
 static bool asks_for_height(const glint_scenario *s)
@@ -129,6 +133,7 @@ void glint_curve_close(glint_curve *c)
     free(c->share_material);
     free(c->share_component);
     free(c->share_surface);
+    free(c->earthshine);
     free(c->outside);
     free(c->n_outside);
     coverage_free(&c->watched);
@@ -188,13 +193,14 @@ static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, 
     const glint_status status =
         geometry_fill(s, c->grid, c->wanted, first, n, &w->geometry, &w->tile, w->lights, error);
     if (status) return status;
-    const photometry_rows rows = {c->rows + at,
-                                  c->flux_ratio + at * s->n_bands,
-                                  c->magnitude + at * s->n_bands,
-                                  c->share_material + at * m->n_materials,
-                                  c->share_component + at * m->n_components,
-                                  c->share_surface ? c->share_surface + at * s->satellite.n_surfaces
-                                                   : NULL};
+    const photometry_rows rows = {
+        .rows = c->rows + at,
+        .flux_ratio = c->flux_ratio + at * s->n_bands,
+        .magnitude = c->magnitude + at * s->n_bands,
+        .share_material = c->share_material + at * m->n_materials,
+        .share_component = c->share_component + at * m->n_components,
+        .share_surface = c->share_surface ? c->share_surface + at * s->satellite.n_surfaces : NULL,
+        .earthshine = c->earthshine ? c->earthshine + at * s->n_bands : NULL};
     const glint_status summed = tile_worker_sum(s, w, &rows, error);
     if (!summed && c->watched.n > 0) coverage_mark(&c->watched, w, c->outside + at * c->watched.n);
     return summed;

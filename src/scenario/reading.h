@@ -53,6 +53,10 @@ void read_geometry(reading *rd, const toml_node *table);
 void read_model_tables(reading *rd, reader *r);
 /* Tells the surfaces apart where that is wanted, then makes the changes of the satellite. */
 void change_satellite(reading *rd, facet_list *facets);
+/* The Earth's light: what [photometry] says of it, and, once there is a satellite, the source. */
+void read_earthshine(reading *rd, reader *photometry);
+void make_earthshine(reading *rd);
+void earth_light_free(earth_light *earth, int n_bands);
 void read_expectations(reading *rd, reader *root);
 /* [observed], and the file that it names. After the time. */
 void read_observed(reading *rd, reader *root);
