@@ -145,3 +145,11 @@ foreach(what formulas study cases sky)
     endif()
     set_tests_properties(starlink_${what} PROPERTIES SKIP_RETURN_CODE 77)
 endforeach()
+
+# The numbers of docs/validation.md: some thousands of runs, minutes; `ctest -C long` has it.
+if(GLINT_PYTHON)
+    add_test(NAME starlink_steps CONFIGURATIONS long COMMAND ${GLINT_PYTHON}
+        ${CMAKE_CURRENT_SOURCE_DIR}/validation/starlink_v15.py $<TARGET_FILE:glint_program> steps
+        ${PROJECT_SOURCE_DIR}/docs/validation.md)
+    set_tests_properties(starlink_steps PROPERTIES SKIP_RETURN_CODE 77)
+endif()

@@ -126,6 +126,12 @@ class Workshop:
         lines = [line for line in done.stdout.splitlines() if not line.startswith("#")]
         return list(csv.DictReader(lines))
 
+    def unmeasured(self, scenario):
+        """What the summary of a run says of angles between which nothing was measured."""
+        done = subprocess.run([self.program, "run", scenario, "-o", os.devnull], check=True,
+                              cwd=self.place, stderr=subprocess.PIPE, encoding="utf-8")
+        return [line for line in done.stderr.splitlines() if line.startswith("unmeasured")]
+
     def run_directions(self, geometries):
         """The rows of a run over (sun_body, observer_body, range_m)."""
         with open(self.place / "directions.csv", "w", encoding="utf-8") as file:
@@ -290,6 +296,10 @@ def check_study(program):
     geometries = study_geometries(observations)
     with Workshop(program, folder) as shop:
         rows = shop.run_directions([g[:3] for g in geometries])
+        print(*shop.unmeasured("directions.toml"), sep="\n")
+    mean = sum(observed) / len(observed)
+    rms = math.sqrt(sum((o - mean)**2 for o in observed) / len(observed))
+    print(f"rms of the observed magnitudes about their mean: {rms:.4f}")
     for model, published in PUBLISHED.items():
         calculated = study_magnitudes(rows, geometries, model)
         found = formulas.statistics(calculated, observed)
@@ -340,6 +350,10 @@ def check_cases(program):
 SUN_V_AB = -26.77  # magnitude of the Sun in V, AB: Willmer 2018, Astrophysical Journal Supplement 236, 47
 # Areas of chassis and array in m^2: of the study's code, and of its description of the surfaces.
 AREAS_CODE, AREAS_TEXT = (3.65, 22.0), (3.64, 22.68)
+DISC = 'photometry.solar_disc="uniform"'
+EARTH_LAMBERT = "photometry.earthshine={ albedo = 0.3 }"
+# The study's vegetation: Phong's model as fitted to it there.
+EARTH_VEGETATION = 'photometry.earthshine={ brdf = "phong", rho_d = 0.53, rho_s = 0.28, n = 7.31 }'
 
 
 def hard_shadow_magnitude(row, model):
@@ -368,41 +382,67 @@ def v_magnitude(row, model):
     return min(12.5, SUN_V_AB - 2.5 * math.log10(flux)) if flux else 12.5
 
 
-def table_of_steps(program):
-    """The lines of the table, one for each step and model."""
+def tables_of_steps(program):
+    """The lines of two tables: of all steps, and of the residuals by the Sun's incidence."""
     folder = reference_folder()
     observations = read_observations(folder)
     observed = [o.magnitude for o in observations]
     geometries = study_geometries(observations)
-    lines = ["| step | description | R | chi^2 | RMS | mean | scatter |",
-             "|---|---|---|---|---|---|---|"]
+    steps = ["| step | description | R | chi^2 | RMS | mean | scatter |", "|---|---|---|---|---|---|---|"]
 
-    def add_step(step, calculated):
+    def add_step(step, rule, rows):
         for model in MODELS:
-            lines.append(table_row(step, model, formulas.statistics(calculated[model], observed)))
+            calculated = [rule(row, model) for row in rows]
+            steps.append(table_row(step, model, formulas.statistics(calculated, observed)))
 
     with Workshop(program, folder) as shop:
         rows = shop.run_directions([g[:3] for g in geometries])
-        add_step("0 the study", {m: study_magnitudes(rows, geometries, m) for m in MODELS})
+        for row, (*_, dark) in zip(rows, geometries):
+            row["flux_ratio_V"] = "0" if dark else row["flux_ratio_V"]
+        add_step("0 the study", magnitude, rows)
         rows = shop.run_sky(observations)
-        for step, rule in (("1 real Earth and Sun", hard_shadow_magnitude), ("2 penumbra", magnitude)):
-            add_step(step, {m: [rule(row, m) for row in rows] for m in MODELS})
-        rows = shop.run_sky(observations, 'photometry.solar_disc="uniform"')
-        add_step("3 finite Sun", {m: [magnitude(row, m) for row in rows] for m in MODELS})
-    for step, rule in (("5 areas of the text", text_areas_magnitude), ("6 the Sun in V", v_magnitude)):
-        add_step(step, {m: [rule(row, m) for row in rows] for m in MODELS})
+        add_step("1 real Earth and Sun", hard_shadow_magnitude, rows)
+        add_step("2 penumbra", magnitude, rows)
+        sunlight = shop.run_sky(observations, DISC)
+        add_step("3 finite Sun", magnitude, sunlight)
+        rows = shop.run_sky(observations, DISC, EARTH_LAMBERT)
+        add_step("4 earthshine", magnitude, rows)
+        add_step("5 earthshine, vegetation", magnitude,
+                 shop.run_sky(observations, DISC, EARTH_VEGETATION))
+    add_step("6 areas of the text", text_areas_magnitude, rows)
+    add_step("7 the Sun in V", v_magnitude, rows)
+    angles = by_incidence({"the Sun": sunlight, "Sun and Earth": rows}, geometries, observed)
+    return {"steps": steps, "angles": angles}
+
+
+INCIDENCES_DEG = (0, 70), (70, 75), (75, 80), (80, 85), (85, 90)
+
+
+def by_incidence(lights, geometries, observed):
+    """Mean and rms of each description where the Sun stands so far from the chassis's normal."""
+    lines = ["| incidence, deg | rows | light of | inferred | laboratory | measured |",
+             "|---|---|---|---|---|---|"]
+    for low_deg, high_deg in INCIDENCES_DEG:
+        inside = [k for k, (sun, *_) in enumerate(geometries)
+                  if low_deg <= formulas.angle_deg(sun, formulas.CHASSIS_NORMAL) < high_deg]
+        for light, rows in lights.items():
+            found = [formulas.statistics([magnitude(rows[k], model) for k in inside],
+                                         [observed[k] for k in inside]) for model in MODELS]
+            cells = " | ".join(f"{f['mean']:+.2f}, {f['rms']:.2f}" for f in found)
+            lines.append(f"| {low_deg} to {high_deg} | {len(inside)} | {light} | {cells} |")
     return lines
 
 
 def make_steps(program, page=None):
-    """Prints the table; with a page, also holds the one there to it."""
-    lines = table_of_steps(program)
-    print(*lines, sep="\n")
-    if page:
-        text = pathlib.Path(page).read_text(encoding="utf-8")
-        written = text.split("<!-- begin steps -->\n")[1].split("\n<!-- end -->")[0].split("\n")
-        check(f"lines of {page} that say something else",
-              sum(a != b for a, b in zip(lines, written)) + abs(len(lines) - len(written)), 0)
+    """Prints the tables; with a page, also holds those there to them."""
+    for name, lines in tables_of_steps(program).items():
+        print(*lines, "", sep="\n")
+        if page:
+            text = pathlib.Path(page).read_text(encoding="utf-8")
+            written = text.split(f"<!-- begin {name} -->\n")[1].split("\n<!-- end -->")[0]
+            written = written.split("\n")
+            check(f"lines of {name} in {page} that say something else",
+                  sum(a != b for a, b in zip(lines, written)) + abs(len(lines) - len(written)), 0)
 
 
 def main():
