@@ -80,13 +80,22 @@ def study_frame(height_m, past_terminator_deg, observer_m):
     return (0.0, math.cos(a), -math.sin(a)), unit(to_observer_m), range_m, dark
 
 
-def study_magnitude(flux_ratio):
-    """AB magnitude of a flux ratio with the study's zero point; fainter than 12.5 counts as 12.5."""
+FAINTEST = 12.5  # what the study gives a satellite that is fainter, or without light
+
+
+def magnitude(flux_ratio, of_sun):
+    """Magnitude of a flux ratio, given that of the Sun. NaN stays NaN."""
     if flux_ratio <= 0:
-        return 12.5
-    per_hz = (IRRADIANCE_STUDY_W_M2 * flux_ratio * WAVELENGTH_STUDY_M
+        return FAINTEST
+    found = of_sun - 2.5 * math.log10(flux_ratio)
+    return FAINTEST if found > FAINTEST else found
+
+
+def study_magnitude(flux_ratio):
+    """AB magnitude with the study's Sun: -27.056."""
+    per_hz = (IRRADIANCE_STUDY_W_M2 * WAVELENGTH_STUDY_M
               / (LIGHT_STUDY_M_S * AB_ZERO_W_M2_HZ))
-    return min(12.5, -2.5 * math.log10(per_hz))
+    return magnitude(flux_ratio, -2.5 * math.log10(per_hz))
 
 
 # --------------------------------------------------------------------------------- the real Earth

@@ -45,6 +45,12 @@ def check(what, value, limit):
     print(f"{'' if good else 'FAILED: '}{what}: {value:.2g}, at most {limit:.2g}")
 
 
+def largest(values):
+    """The largest of some deviations; NaN if any of them is, where max would depend on the order."""
+    values = list(values)
+    return math.nan if any(map(math.isnan, values)) else max(values)
+
+
 def relative(value, wanted):
     return abs(value / wanted - 1) if wanted else abs(value)
 
@@ -202,7 +208,7 @@ SPOTS = [("laboratory", 10, 3.79697e-11), ("inferred", 10, 8.44916e-11),
 def check_spots(shop):
     rows = shop.run_directions([formulas.study_frame(550e3, past, frame_observer(0, 0))[:3]
                                 for _, past, _ in SPOTS])
-    check(f"flux in {len(SPOTS)} geometries of the study's software, relative", max(
+    check(f"flux in {len(SPOTS)} geometries of the study's software, relative", largest(
         relative(formulas.IRRADIANCE_STUDY_W_M2 * model_flux(row, model), flux_w_m2)
         for row, (model, _, flux_w_m2) in zip(rows, SPOTS)), 3e-6)
 
@@ -213,7 +219,7 @@ def check_formulas(program):
     with Workshop(program) as shop:
         rows = shop.run_directions(geometries)
         for model in MODELS[:2]:
-            check(f"flux of {model} in {len(rows)} given geometries, relative", max(
+            check(f"flux of {model} in {len(rows)} given geometries, relative", largest(
                 relative(model_flux(row, model), formulas.flux_ratio(model, *geometry))
                 for row, geometry in zip(rows, geometries)), 1e-11)
         check_spots(shop)
@@ -240,27 +246,28 @@ def check_sky(shop, observations):
     by the measured UT1 where glint's turns by UTC."""
     sun_deg = 1e-3 if observations[0].sun_deg else 0.015
     rows = shop.run_sky(observations)
-    worst = {"place in the sky, deg": 0.0, "range, m": 0.0, "phase angle, deg": 0.0,
-             "flux of inferred, relative": 0.0, "elevation of the Sun, deg": 0.0}
-    compared = 0
+    found = {"place in the sky, deg": [], "range, m": [], "phase angle, deg": [],
+             "flux of inferred, relative": [], "elevation of the Sun, deg": []}
     for o, row in zip(observations, rows):
         sun, observer, range_m, flux = sky_expectation(o)
         seen = formulas.horizontal(float(row["elevation_deg"]), float(row["azimuth_deg"]))
-        deviations = [formulas.angle_deg(seen, formulas.horizontal(o.altitude_deg, o.azimuth_deg)),
-                      abs(1e3 * float(row["range_km"]) - range_m),
-                      abs(float(row["phase_angle_deg"]) - formulas.angle_deg(sun, observer))]
+        wanted = formulas.horizontal(o.altitude_deg, o.azimuth_deg)
+        found["place in the sky, deg"].append(formulas.angle_deg(seen, wanted))
+        found["range, m"].append(abs(1e3 * float(row["range_km"]) - range_m))
+        found["phase angle, deg"].append(
+            abs(float(row["phase_angle_deg"]) - formulas.angle_deg(sun, observer)))
         if float(row["sunlit_fraction"]) == 1:
-            # Of a surface at grazing incidence, the light goes with the sine of a small angle.
-            compared += 1
-            deviations.append(relative(model_flux(row, "inferred"), flux))
-        else:
-            deviations.append(0.0)
-        deviations.append(abs(float(row["sun_elevation_deg"]) - o.sun_deg[0]) if o.sun_deg else 0.0)
-        worst = {name: max(w, d) for (name, w), d in zip(worst.items(), deviations)}
+            found["flux of inferred, relative"].append(relative(model_flux(row, "inferred"), flux))
+        if o.sun_deg:
+            found["elevation of the Sun, deg"].append(
+                abs(float(row["sun_elevation_deg"]) - o.sun_deg[0]))
+    # The light of a surface goes with the sine of the Sun's small angle to it: a factor of 20.
     limits = 1e-9, 1e-4, sun_deg, 20 * math.radians(sun_deg), sun_deg
-    print(f"{len(rows)} observations through orbit, attitude and site, {compared} of them with flux:")
-    for (name, value), limit in zip(worst.items(), limits):
-        check("    " + name, value, limit)
+    print(f"{len(rows)} observations through orbit, attitude and site, "
+          f"{len(found['flux of inferred, relative'])} of them with flux:")
+    for (name, values), limit in zip(found.items(), limits):
+        if values:
+            check("    " + name, largest(values), limit)
     return rows
 
 
@@ -306,7 +313,7 @@ def check_study(program):
         for name, value, limit in published:
             check(f"{model}, {len(observed)} observations: {name} = {found[name]:.5f}, published "
                   f"{value}, difference", abs(found[name] - value), limit)
-        check(f"{model}: flux against the formulas, relative", max(
+        check(f"{model}: flux against the formulas, relative", largest(
             relative(model_flux(row, model), formulas.flux_ratio(model, *g[:3]))
             for row, g in zip(rows, geometries)), 1e-11)
     sunlit = [k for k, g in enumerate(geometries) if not g[3]]
@@ -336,13 +343,14 @@ def check_cases(program):
     with Workshop(program, folder) as shop:
         rows = shop.run_directions([g[:3] for g in geometries])
     for model, column in (("inferred", "flux_inferred_sun"), ("laboratory", "flux_lab_sun")):
-        worst, lit = 0.0, 0
+        deviations, lit = [], 0
         for case, row, (*_, dark) in zip(cases, rows, geometries):
             wanted_w_m2 = float(case[column])
             flux_w_m2 = formulas.IRRADIANCE_STUDY_W_M2 * model_flux(row, model) * (not dark)
-            worst = max(worst, relative(flux_w_m2, wanted_w_m2))
+            deviations.append(relative(flux_w_m2, wanted_w_m2))
             lit += wanted_w_m2 > 0
-        check(f"{model}: flux in {len(cases)} geometries, {lit} of them lit, relative", worst, 1e-6)
+        check(f"{model}: flux in {len(cases)} geometries, {lit} of them lit, relative",
+              largest(deviations), 1e-6)
 
 
 # ------------------------------------------------------------------------------------------- the steps
@@ -378,8 +386,7 @@ def text_areas_magnitude(row, model):
 
 def v_magnitude(row, model):
     """With the Sun's own magnitude in V in place of 1360 W/m^2 at 532 nm."""
-    flux = model_flux(row, model)
-    return min(12.5, SUN_V_AB - 2.5 * math.log10(flux)) if flux else 12.5
+    return formulas.magnitude(model_flux(row, model), SUN_V_AB)
 
 
 def tables_of_steps(program):
