@@ -98,4 +98,15 @@ static inline void light_at(int k, double phase, double sun[3], double observer[
     add_scaled3(observer, -sin(0.5 * phase), aside, observer);
 }
 
+/* A plate of 1 m^2 looking along z. */
+static inline bench *plate_of(const paint *p)
+{
+    primitive_spec spec = shape("plate");
+    SET(&spec, "size_m", 1, 1);
+    SET(&spec, "normal", 0, 0, 1);
+    SET(&spec, "tangent", 1, 0, 0);
+    shape_material(&spec, "material", 0);
+    return bench_of(&spec, p);
+}
+
 #endif

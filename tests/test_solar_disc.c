@@ -4,16 +4,6 @@
 
 #define SUN_Q (0.2664531 * DEG) /* rad, angular radius at 1 au (physics page, section 4) */
 
-static bench *plate_of(const paint *p)
-{
-    primitive_spec spec = shape("plate");
-    SET(&spec, "size_m", 1, 1);
-    SET(&spec, "normal", 0, 0, 1);
-    SET(&spec, "tangent", 1, 0, 0);
-    shape_material(&spec, "material", 0);
-    return bench_of(&spec, p);
-}
-
 /* What the model sees of one pair, m^2/sr; every lane must say the same. */
 static double sum_of(const bench *b, const double sun[3], const double observer[3], double q,
                      bool limb_darkened)

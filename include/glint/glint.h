@@ -120,6 +120,8 @@ typedef struct glint_row {
     const double *magnitude;       /* n_bands; only where flux_ratio > 0, else 0 */
     const double *share_material;  /* n_materials, of the first band's flux; all 0 when dark */
     const double *share_component; /* n_components */
+    const double *earthshine_flux_ratio; /* n_bands: the part of flux_ratio that came by way of the
+                                            Earth; NULL where the scenario asks for no earthshine */
 } glint_row;
 
 /* An output column. */
@@ -529,9 +531,9 @@ glint_status glint_verify(const char *path, const char *const *overrides, size_t
 /* A parameter of a BRDF model. */
 typedef struct glint_brdf_param {
     const char *name, *unit, *doc;
-    double min, max;      /* may be infinite */
+    double min, max;         /* may be infinite */
     bool min_open, max_open; /* that end does not belong to the range */
-    double default_value; /* where not required */
+    double default_value;    /* where not required */
     bool required;
     int dimensions; /* 0: a number; 2: rows of numbers, each in the range */
 } glint_brdf_param;
@@ -544,7 +546,8 @@ const char *glint_brdf_source(size_t k);
 /* Parameter j of model k; false past the end. */
 bool glint_brdf_parameter(size_t k, size_t j, glint_brdf_param *out);
 
-/* Whether glint_brdf_fit takes model k: it has values everywhere, and numbers alone as parameters. */
+/* Whether glint_brdf_fit takes model k: it has values everywhere, and numbers alone as parameters.
+ */
 bool glint_brdf_can_be_fitted(size_t k);
 
 /* How a file of measured BRDF values is laid out: rows of numbers, parted by commas, semicolons or
@@ -679,8 +682,8 @@ glint_status glint_material_brdf(const glint_material *material, double theta_i,
                                  double theta_r, double phi_r, double *f, glint_error *error);
 
 /* Whether what is measured of a material was measured around these directions (as above, not below
- * the horizon): between its measurements. Elsewhere f is the nearest measured one. True of materials
- * without measured tables. */
+ * the horizon): between its measurements. Elsewhere f is the nearest measured one. True of
+ * materials without measured tables. */
 bool glint_material_covers(const glint_material *material, double theta_i, double phi_i,
                            double theta_r, double phi_r);
 
@@ -691,8 +694,9 @@ double glint_material_mirrored(const glint_material *material, double theta_i);
 
 /* The directional-hemispherical reflectance: the part of the light from one direction that is sent
  * back. theta_i: rad, 0 <= theta_i < pi/2. error_bound: estimate of the absolute error of *dhr,
- * NULL allowed; 1e-8 of it is aimed at, 1e-5 of measured tables. Errors: GLINT_ARGUMENT for theta_i; GLINT_INPUT where so
- * much could not be reached (*dhr and *error_bound hold what was); GLINT_INTERNAL. */
+ * NULL allowed; 1e-8 of it is aimed at, 1e-5 of measured tables. Errors: GLINT_ARGUMENT for
+ * theta_i; GLINT_INPUT where so much could not be reached (*dhr and *error_bound hold what was);
+ * GLINT_INTERNAL. */
 glint_status glint_material_dhr(const glint_material *material, double theta_i, double phi_i,
                                 double *dhr, double *error_bound, glint_error *error);
 

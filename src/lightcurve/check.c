@@ -162,18 +162,6 @@ static glint_status report_shadows(const glint_scenario *s, text *t, glint_error
     return status;
 }
 
-static void report_lobe(const brdf_lobe *lobe, text *t)
-{
-    if (lobe->weight != 1) text_printf(t, "%g x ", lobe->weight);
-    text_add(t, lobe->model->name);
-    for (int k = 0; k < lobe->model->n_params; k++)
-        if (lobe->model->params[k].flags & PARAM_ROWS)
-            text_printf(t, " %s=(%d x %d)", lobe->model->params[k].name, lobe->arrays[k].rows,
-                        lobe->arrays[k].columns);
-        else if (!isnan(lobe->params[k]))
-            text_printf(t, " %s=%g", lobe->model->params[k].name, lobe->params[k]);
-}
-
 /* What the measured lobes of a material rest on. */
 static void report_tables(const brdf_material *material, text *t)
 {
@@ -233,7 +221,7 @@ static void report_materials(const glint_scenario *s, text *t)
             text_printf(t, "            %s: ", s->bands[b]->name);
             for (int l = 0; l < sat->materials[m].bands[b].n_lobes; l++) {
                 if (l) text_add(t, " + ");
-                report_lobe(&sat->materials[m].bands[b].lobes[l], t);
+                fact_lobe(&sat->materials[m].bands[b].lobes[l], t);
             }
             text_char(t, '\n');
             report_tables(&sat->materials[m].bands[b], t);

@@ -38,6 +38,9 @@ static bool add_bands(const glint_scenario *s, column_set *set)
     for (int b = 0; b < s->n_bands; b++)
         good = good && add(set, COLUMN_FLUX, b, "flux_ratio_", s->bands[b]->name, "",
                            "irradiance at the observer over the Sun's at 1 au, no extinction");
+    for (int b = 0; s->earth.wanted && b < s->n_bands; b++)
+        good = good && add(set, COLUMN_EARTHSHINE, b, "earthshine_flux_ratio_", s->bands[b]->name,
+                           "", "the part of flux_ratio that came by way of the Earth");
     return good;
 }
 
@@ -104,7 +107,7 @@ glint_status column_set_make(const glint_scenario *s, column_set *set, glint_err
 {
     const model *m = &s->satellite.model;
     const size_t most =
-        24 + 2 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components;
+        24 + 3 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components;
     *set = (column_set){.columns = calloc(most, sizeof *set->columns),
                         .kinds = calloc(most, sizeof *set->kinds),
                         .indices = calloc(most, sizeof *set->indices),
@@ -164,6 +167,9 @@ bool column_value(const column_set *set, const glint_row *row, size_t column, do
         return row->flux_ratio[i] > 0;
     case COLUMN_FLUX:
         *value = row->flux_ratio[i];
+        return true;
+    case COLUMN_EARTHSHINE:
+        *value = row->earthshine_flux_ratio[i];
         return true;
     case COLUMN_RANGE:
         *value = row->range_m * 1e-3;

@@ -11,6 +11,7 @@ typedef enum column_kind {
     COLUMN_T,
     COLUMN_MAGNITUDE, /* index: band */
     COLUMN_FLUX,      /* index: band */
+    COLUMN_EARTHSHINE, /* index: band */
     COLUMN_RANGE,
     COLUMN_PHASE,
     COLUMN_SUNLIT,

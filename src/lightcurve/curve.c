@@ -30,6 +30,7 @@ struct glint_curve {
     int64_t next;             /* first row of the next block: observer after observer */
     glint_row *rows, *chosen; /* owned; block */
     double *flux_ratio, *magnitude, *share_material, *share_component; /* owned */
+    double *earthshine; /* owned; NULL where the scenario wants none */
     coverage watched;                                                  /* measured materials */
     unsigned char *outside; /* owned; block x watched.n: of coverage_mark */
     int64_t *n_outside;     /* owned; watched.n: rows handed out so far of which that holds */
@@ -51,7 +52,8 @@ static bool make_rows(glint_curve *c)
     const model *m = &c->s->satellite.model;
     const size_t n_bands = (size_t)c->s->n_bands, n_materials = (size_t)m->n_materials,
                  n_components = (size_t)m->n_components;
-    const size_t width = 2 * n_bands + n_materials + n_components;
+    const bool has_earth = c->s->earth.wanted;
+    const size_t width = (has_earth ? 3 : 2) * n_bands + n_materials + n_components;
     const size_t fitting = BLOCK_NUMBERS / width / TILE * TILE;
     c->block = fitting < TILE ? TILE : fitting > BLOCK_MOST ? BLOCK_MOST : fitting;
     c->rows = calloc(c->block, sizeof *c->rows);
@@ -60,9 +62,10 @@ static bool make_rows(glint_curve *c)
     c->magnitude = calloc(c->block * n_bands, sizeof(double));
     c->share_material = calloc(c->block * n_materials, sizeof(double));
     c->share_component = calloc(c->block * n_components, sizeof(double));
+    if (has_earth) c->earthshine = calloc(c->block * n_bands, sizeof(double));
     c->outside = calloc(c->block * (size_t)c->watched.n + 1, sizeof *c->outside);
     c->n_outside = calloc((size_t)c->watched.n + 1, sizeof *c->n_outside);
-    return c->outside && c->n_outside && c->rows && c->chosen && c->flux_ratio && c->magnitude &&
+    return c->outside && c->n_outside && (c->earthshine || !has_earth) && c->rows && c->chosen && c->flux_ratio && c->magnitude &&
            c->share_material && c->share_component;
 }
 
@@ -126,6 +129,7 @@ void glint_curve_close(glint_curve *c)
     free(c->magnitude);
     free(c->share_material);
     free(c->share_component);
+    free(c->earthshine);
     free(c->outside);
     free(c->n_outside);
     coverage_free(&c->watched);
@@ -187,7 +191,8 @@ static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, 
     if (status) return status;
     const photometry_rows rows = {
         c->rows + at, c->flux_ratio + at * s->n_bands, c->magnitude + at * s->n_bands,
-        c->share_material + at * m->n_materials, c->share_component + at * m->n_components};
+        c->share_material + at * m->n_materials, c->share_component + at * m->n_components,
+        c->earthshine ? c->earthshine + at * s->n_bands : NULL};
     const glint_status summed = tile_worker_sum(s, w, &rows, error);
     if (!summed && c->watched.n > 0) coverage_mark(&c->watched, w, c->outside + at * c->watched.n);
     return summed;

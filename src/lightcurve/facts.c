@@ -370,6 +370,46 @@ static void add_flicker(const glint_scenario *s, fact_list *out)
     }
 }
 
+void fact_lobe(const brdf_lobe *lobe, text *t)
+{
+    if (lobe->weight != 1) text_printf(t, "%g x ", lobe->weight);
+    text_add(t, lobe->model->name);
+    for (int k = 0; k < lobe->model->n_params; k++)
+        if (lobe->model->params[k].flags & PARAM_ROWS)
+            text_printf(t, " %s=(%d x %d)", lobe->model->params[k].name, lobe->arrays[k].rows,
+                        lobe->arrays[k].columns);
+        else if (!isnan(lobe->params[k]))
+            text_printf(t, " %s=%g", lobe->model->params[k].name, lobe->params[k]);
+}
+
+static void add_earthshine(const glint_scenario *s, fact_list *out)
+{
+    if (!s->earth.wanted) {
+        add(out, "earthshine", "none");
+        return;
+    }
+    add(out, "earthshine",
+        "from a sphere of %.7g km, lit by the Sun's centre, in %d rings of directions; no clouds, "
+        "no "
+        "seasons; %s; pieces of curved surfaces count as flat",
+        s->earth.radius_m * 1e-3, s->earth.source ? globe_rings(s->earth.source) : 0,
+        s->self_shadows == SHADOWS_NONE
+            ? "shadows are neglected"
+            : "its shadows are those of the centre of the lit ground; facets that do not see that "
+              "centre are hidden from the observer only");
+    for (int b = 0; b < s->n_bands; b++) {
+        if (b > 0 && brdf_material_same(&s->earth.ground[b - 1], &s->earth.ground[b])) continue;
+        text ground = {0};
+        for (int l = 0; l < s->earth.ground[b].n_lobes; l++) {
+            if (l) text_add(&ground, " + ");
+            fact_lobe(&s->earth.ground[b].lobes[l], &ground);
+        }
+        add(out, "earthshine_ground", "from %s on: %s", s->bands[b]->name,
+            ground.data ? ground.data : "");
+        text_free(&ground);
+    }
+}
+
 void facts_of_orbit(const glint_scenario *s, fact_list *out)
 {
     add_origin(s, out);
@@ -418,7 +458,7 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
                                 "shadows between parts are those of its centre",
         [SOLAR_POINT] = "point: facets see the Sun's light from the centre of its disc"};
     add(out, "solar_disc", "%s", DISCS[s->solar_disc]);
-    add(out, "earthshine", "none");
+    add_earthshine(s, out);
     add(out, "not_modelled",
         "interreflection between parts, polarisation, transmission, thermal emission, moonlight%s",
         s->has_geometry || any_refraction(s) ? "" : ", refraction of the line of sight");

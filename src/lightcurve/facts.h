@@ -2,6 +2,7 @@
 #ifndef GLINT_LIGHTCURVE_FACTS_H
 #define GLINT_LIGHTCURVE_FACTS_H
 
+#include "base/text.h"
 #include "scenario/scenario.h"
 
 typedef struct fact {
@@ -24,6 +25,8 @@ char *fact_orbit(const glint_scenario *s, const scenario_orbit *o);
 /* Which of several element sets is used when, how old it gets, and how far the satellite jumps from
  * one to the next; from malloc; NULL where there are not several, or when memory is out. */
 char *fact_element_sets(const glint_scenario *s, const scenario_orbit *o);
+/* Appends a lobe in short: "ward rho_d=0.1 ...". */
+void fact_lobe(const brdf_lobe *lobe, text *t);
 /* Name of the satellite as the file of its orbit has it; "" where there is none. */
 const char *scenario_object(const glint_scenario *s);
 /* An observer in one line, likewise: its name, where it is, what it cannot see, its air. */

@@ -198,6 +198,8 @@ static glint_status fill_row(const glint_scenario *s, unsigned wanted, double gu
     const double au = AU_M / seen->sun_distance_m;
     out->sun_radius[k] = asin(SUN_RADIUS_M / seen->sun_distance_m);
     out->sun_weight[k] = out->sunlit[k] * au * au;
+    out->sun_distance_m[k] = seen->sun_distance_m;
+    copy3(m->r_m, out->satellite_m[k]);
     out->seen[k] = v->observer->kind != OBSERVER_SATELLITE ||
                    !eclipse_earth_between(seen->observer_gcrs_m, m->r_m, m->itrs_gcrs + 6);
     keep_view(s, seen, k, v->observer, lanes);

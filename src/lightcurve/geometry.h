@@ -27,6 +27,8 @@ typedef struct tile_geometry {
     double moon_separation[TILE];  /* between satellite and Moon, from the observer */
     double moon_illuminated[TILE]; /* fraction of its disc */
     double height_m[TILE];         /* geodetic, of the satellite; only with GEOMETRY_HEIGHT */
+    double satellite_m[TILE][3];   /* from the Earth's centre, GCRS; unset in [geometry] runs */
+    double sun_distance_m[TILE];   /* from the satellite; likewise */
     bool seen[TILE];               /* not below the horizon, not behind the Earth */
     bool any_bright;               /* some lane is seen and sunlit: the sum is needed */
     double sun[TILE][3], observer[TILE][3]; /* unit; GCRS, or body where directions are given */

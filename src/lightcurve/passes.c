@@ -183,8 +183,11 @@ glint_status light_meter_make(watch *w, const visibility *plan, light_meter *out
         calloc(TILE * (2 * n_bands + n_materials + (size_t)m->n_components), sizeof(double));
     if (!out->rows || !out->numbers) return error_no_memory(error);
     double *magnitude = out->numbers + TILE * n_bands, *material = magnitude + TILE * n_bands;
-    out->photometry = (photometry_rows){out->rows, out->numbers, magnitude, material,
-                                        material + TILE * n_materials};
+    out->photometry = (photometry_rows){.rows = out->rows,
+                                        .flux_ratio = out->numbers,
+                                        .magnitude = magnitude,
+                                        .share_material = material,
+                                        .share_component = material + TILE * n_materials};
     return GLINT_OK;
 }
 

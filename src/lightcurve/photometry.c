@@ -17,14 +17,34 @@ double magnitude_of(double flux_ratio, double sun_magnitude)
     return sun_magnitude - 2.5 * log10(flux_ratio);
 }
 
-/* Shares of the first band's sum by material and by component, lane k; total > 0. */
-static void fill_shares(const model *m, const double *x, int k, double total,
-                        double *share_material, double *share_component)
+/* What reaches the observer in lane k: the sums of the sources, each with its weight. */
+typedef struct lane_light {
+    const model *m;
+    const double *sun, *earth; /* NULL: none */
+    double sun_weight, earth_weight;
+    int k;
+} lane_light;
+
+/* Flux ratio of one span in one band. */
+static double span_flux(const lane_light *l, int band, int span)
 {
+    const size_t at = ((size_t)band * (size_t)l->m->n_spans + (size_t)span) * TILE + (size_t)l->k;
+    double flux = 0;
+    if (l->sun) flux += l->sun_weight * l->sun[at];
+    if (l->earth) flux += l->earth_weight * l->earth[at];
+    return fmax(flux, 0);
+}
+
+/* Shares of the first band's flux by material and by component. */
+static void fill_shares(const lane_light *l, double *share_material, double *share_component)
+{
+    const model *m = l->m;
+    double total = 0;
     for (int span = 0; span < m->n_spans; span++) {
-        const double part = x[(size_t)span * TILE + (size_t)k];
+        const double part = span_flux(l, 0, span);
         share_material[m->spans[span].material] += part;
         share_component[m->spans[span].component] += part;
+        total += part;
     }
     for (int i = 0; i < m->n_materials; i++)
         share_material[i] /= total;
@@ -32,13 +52,14 @@ static void fill_shares(const model *m, const double *x, int k, double total,
         share_component[i] /= total;
 }
 
-/* Sum over all spans of one band, lane k, m^2/sr. */
-static double total_of(const model *m, const double *x, int band, int k)
+/* Weight times the sum over all spans of one band, at least 0; sums: of one source, or NULL. */
+static double source_flux(const lane_light *l, const double *sums, double weight, int band)
 {
+    if (!sums) return 0;
     double total = 0;
-    for (int span = 0; span < m->n_spans; span++)
-        total += x[((size_t)band * (size_t)m->n_spans + (size_t)span) * TILE + (size_t)k];
-    return total;
+    for (int span = 0; span < l->m->n_spans; span++)
+        total += sums[((size_t)band * (size_t)l->m->n_spans + (size_t)span) * TILE + (size_t)l->k];
+    return total > 0 ? weight * total : 0;
 }
 
 static unsigned flags_of(const glint_scenario *s, const tile_geometry *g, int k, bool bright)
@@ -50,7 +71,9 @@ static unsigned flags_of(const glint_scenario *s, const tile_geometry *g, int k,
         flags |= GLINT_UMBRA;
     else if (g->sunlit[k] < 1)
         flags |= GLINT_PENUMBRA;
-    if (!flags || flags == GLINT_PENUMBRA) flags |= bright ? 0 : GLINT_DARK;
+    /* The umbra by itself tells why a row is dark, unless the Earth might have lit it. */
+    const bool explained = flags & GLINT_BELOW_HORIZON || (flags & GLINT_UMBRA && !s->earth.wanted);
+    if (!explained && !bright) flags |= GLINT_DARK;
     if (at_site && g->sun_elevation[k] < s->sun_elevation_max) flags |= GLINT_SITE_DARK;
     if (g->moon_covers[k]) flags |= GLINT_MOON_SHADOW;
     return flags;
@@ -77,8 +100,8 @@ static void fill_place(const glint_scenario *s, const tile_geometry *g, int k, g
     out->moon_illuminated = g->moon_illuminated[k];
 }
 
-void photometry_fill(const glint_scenario *s, const tile_geometry *g, const double *x,
-                     const photometry_rows *out)
+void photometry_fill(const glint_scenario *s, const tile_geometry *g, const double *sun,
+                     const double *earth, const photometry_rows *out)
 {
     const model *m = &s->satellite.model;
     const bool at_site = g->who && g->who->kind == OBSERVER_SITE;
@@ -88,22 +111,28 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
         double *magnitude = out->magnitude + row * (size_t)s->n_bands;
         double *material = out->share_material + row * (size_t)m->n_materials;
         double *component = out->share_component + row * (size_t)m->n_components;
+        double *earthshine = out->earthshine ? out->earthshine + row * (size_t)s->n_bands : NULL;
         memset(material, 0, (size_t)m->n_materials * sizeof *material);
         memset(component, 0, (size_t)m->n_components * sizeof *component);
         const double airmass = at_site ? airmass_kasten_young(g->elevation[k]) : 0;
-        const double weight =
-            x && g->seen[k] ? g->sun_weight[k] / (g->range_m[k] * g->range_m[k]) : 0;
+        const double square = g->range_m[k] * g->range_m[k];
+        const lane_light light = {.m = m,
+                                  .sun = g->seen[k] && g->sun_weight[k] > 0 ? sun : NULL,
+                                  .earth = g->seen[k] ? earth : NULL,
+                                  .sun_weight = g->sun_weight[k] / square,
+                                  .earth_weight = 1 / square,
+                                  .k = k};
         bool bright = false;
         for (int b = 0; b < s->n_bands; b++) {
-            const double total = weight > 0 ? total_of(m, x, b, k) : 0;
-            flux[b] = total > 0 ? weight * total : 0;
+            const double from_earth = source_flux(&light, light.earth, light.earth_weight, b);
+            flux[b] = source_flux(&light, light.sun, light.sun_weight, b) + from_earth;
+            if (earthshine) earthshine[b] = from_earth;
             magnitude[b] = 0;
             bright |= flux[b] > 0;
             if (flux[b] > 0)
                 magnitude[b] =
                     magnitude_of(flux[b], s->sun_magnitude[b]) + s->extinction[b] * airmass;
-            if (b == 0 && flux[0] > 0 && s->shares)
-                fill_shares(m, x, k, total, material, component);
+            if (b == 0 && flux[0] > 0 && s->shares) fill_shares(&light, material, component);
         }
         glint_row *r = &out->rows[k];
         fill_place(s, g, k, r);
@@ -112,6 +141,7 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
         r->magnitude = magnitude;
         r->share_material = material;
         r->share_component = component;
+        r->earthshine_flux_ratio = earthshine;
         r->flags = flags_of(s, g, k, bright);
     }
 }

@@ -18,11 +18,13 @@ typedef struct photometry_rows {
     double *magnitude;       /* TILE x n_bands */
     double *share_material;  /* TILE x n_materials */
     double *share_component; /* TILE x n_components */
+    double *earthshine;      /* TILE x n_bands: its part of flux_ratio; NULL: nobody asks */
 } photometry_rows;
 
-/* Fills the rows of a tile. x: n_bands x n_spans x TILE sums in m^2/sr, or NULL where no row of the
- * tile is bright. */
-void photometry_fill(const glint_scenario *s, const tile_geometry *geometry, const double *x,
-                     const photometry_rows *out);
+/* Fills the rows of a tile. sun: n_bands x n_spans x TILE sums in m^2/sr, or NULL where no row of
+ * the tile is bright; earth: likewise of the Earth's light, times its irradiance over that of the
+ * Sun at 1 au, or NULL. */
+void photometry_fill(const glint_scenario *s, const tile_geometry *geometry, const double *sun,
+                     const double *earth, const photometry_rows *out);
 
 #endif

@@ -55,10 +55,14 @@ glint_status tile_worker_make(const glint_scenario *s, const visibility *plan, t
     w->x = aligned((size_t)m->n_bands * (size_t)m->n_spans * TILE, sizeof *w->x);
     w->geometry.component_gcrs = calloc(n_components, sizeof *w->geometry.component_gcrs);
     if (!w->lights || !w->x || !w->geometry.component_gcrs) return error_no_memory(error);
-    if (!plan) return GLINT_OK;
+    if (plan || s->earth.source) {
+        w->geometry.poses = calloc(TILE * n_components, sizeof *w->geometry.poses);
+        if (!w->geometry.poses) return error_no_memory(error);
+    }
+    const glint_status status = earthshine_make(s, plan != NULL, &w->earth, error);
+    if (status || !plan) return status;
     w->visible = aligned((size_t)m->n_facets * TILE, sizeof *w->visible);
-    w->geometry.poses = calloc(TILE * n_components, sizeof *w->geometry.poses);
-    if (!w->visible || !w->geometry.poses) return error_no_memory(error);
+    if (!w->visible) return error_no_memory(error);
     return visibility_scratch_make(plan, &w->scratch, error);
 }
 
@@ -70,6 +74,7 @@ void tile_worker_free(tile_worker *w)
     free(w->geometry.poses);
     free(w->geometry.body);
     free(w->visible);
+    earthshine_free(&w->earth);
     visibility_scratch_free(w->scratch);
     *w = (tile_worker){0};
 }
@@ -99,6 +104,13 @@ glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const phot
         const bool is_disc = fill_disc(s, &w->tile, &disc);
         model_sum(&s->satellite.model, w->lights, is_disc ? &disc : NULL, w->visible, w->x);
     }
-    photometry_fill(s, &w->tile, w->tile.any_bright ? w->x : NULL, rows);
+    bool has_earth = false;
+    if (s->earth.source) {
+        const glint_status status = earthshine_fill(s, w->plan, w->scratch, &w->geometry, &w->tile,
+                                                    w->lights, &w->earth, &has_earth, error);
+        if (status) return status;
+    }
+    photometry_fill(s, &w->tile, w->tile.any_bright ? w->x : NULL, has_earth ? w->earth.x : NULL,
+                    rows);
     return GLINT_OK;
 }

@@ -2,6 +2,7 @@
 #ifndef GLINT_LIGHTCURVE_TILE_H
 #define GLINT_LIGHTCURVE_TILE_H
 
+#include "lightcurve/earthshine.h"
 #include "lightcurve/photometry.h"
 
 /* What one thread needs for a tile. */
@@ -13,6 +14,7 @@ typedef struct tile_worker {
     const visibility *plan;      /* borrowed; NULL without shadows */
     visibility_scratch *scratch; /* owned; NULL without shadows */
     double *visible;             /* owned; n_facets x TILE; NULL without shadows */
+    earthshine earth;
 } tile_worker;
 
 /* Plans the shadows that parts cast on each other; *out is NULL where none are wanted or none can

@@ -109,6 +109,25 @@ static void read_parts(reader *r, const band_info *band, measured_cache *tables,
     }
 }
 
+void read_reflection(reading *rd, reader *r, const band_info *band, brdf_material *out)
+{
+    *out = (brdf_material){0};
+    const toml_node *brdf_node = reader_find(r, "brdf");
+    const bool is_sum =
+        brdf_node && brdf_node->type == TOML_STRING && string_equal(brdf_node->string, "sum");
+    if (is_sum) {
+        read_parts(r, band, &rd->tables, out);
+        reader_done(r);
+    } else {
+        const brdf_model *brdf = read_brdf_name(r, false);
+        if (brdf && make_lobes(r, 1, out)) {
+            read_lobe(r, brdf, band, 1.0, &rd->tables, &out->lobes[0]);
+            reader_done(r);
+        }
+    }
+    if (r->status) brdf_material_free(out);
+}
+
 /* One material, one band: overlay holds the keys that differ in it (NULL: none). band NULL: without
  * a band. Errors leave *out empty. */
 static glint_status read_function(reading *rd, const toml_node *table, const toml_node *overlay,
@@ -119,25 +138,11 @@ static glint_status read_function(reading *rd, const toml_node *table, const tom
              overlay ? overlay->key : "");
     reader r = reader_start(table, what, rd->errors);
     r.overlay = overlay;
-    *out = (brdf_material){0};
     reader_has(&r, "source");
     reader_has(&r, "status");
     reader_has(&r, "bands");
     reader_has(&r, "holds_um");
-    const toml_node *brdf_node = reader_find(&r, "brdf");
-    const bool is_sum =
-        brdf_node && brdf_node->type == TOML_STRING && string_equal(brdf_node->string, "sum");
-    if (is_sum) {
-        read_parts(&r, band, &rd->tables, out);
-        reader_done(&r);
-    } else {
-        const brdf_model *brdf = read_brdf_name(&r, false);
-        if (brdf && make_lobes(&r, 1, out)) {
-            read_lobe(&r, brdf, band, 1.0, &rd->tables, &out->lobes[0]);
-            reader_done(&r);
-        }
-    }
-    if (r.status) brdf_material_free(out);
+    read_reflection(rd, &r, band, out);
     return r.status;
 }
 

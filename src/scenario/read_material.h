@@ -10,6 +10,9 @@ void read_materials(reading *rd, reader *r);
  * without the keys of any band) and checks the keys of all others. scenario_material_free ends *out
  * in every case. */
 void read_material(reading *rd, const toml_node *table, scenario_material *out);
+/* Reads the keys that say how a surface reflects, `brdf` and its parameters, from a table with other
+ * keys that the caller knows; band NULL: without a band. Errors go to r and leave *out empty. */
+void read_reflection(reading *rd, reader *r, const band_info *band, brdf_material *out);
 /* What a material is as a function, in its one band; borrowed. */
 const brdf_material *material_function(const glint_material *material);
 /* Refuses the materials in use that are perfect mirrors: a point Sun has no image in them. */

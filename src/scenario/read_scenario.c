@@ -360,10 +360,7 @@ static void read_photometry(reading *rd, reader *root)
     read_bands(rd, &r);
     reader_choice(&r, "solar_disc", DISCS, 3, 0, &disc);
     rd->s->solar_disc = (solar_disc_choice)disc;
-    const toml_node *earthshine = reader_find(&r, "earthshine");
-    if (earthshine && (earthshine->type != TOML_BOOLEAN || earthshine->boolean))
-        reader_fail(&r, earthshine->where,
-                    "earthshine is not built yet: this version has sunlight only; expected false");
+    read_earthshine(rd, &r);
     if (rd->s->has_geometry)
         refuse_extinction(&r);
     else
@@ -525,6 +522,7 @@ static void read_all(reading *rd, toml_document *document)
     s->has_satellite = !rd->orbit_only || names_satellite(&root);
     if (s->has_satellite) read_satellite(rd, &root);
     if (rd->status == GLINT_OK) refuse_mirrors(rd);
+    if (rd->status == GLINT_OK && s->has_satellite) make_earthshine(rd);
     s->needs_moon = !s->has_geometry && rd->status == GLINT_OK && wants_moon(s);
     read_expectations(rd, &root);
     reader_refuse(&root, "observed", "comparing with an observed track comes later");
@@ -658,6 +656,7 @@ void glint_scenario_free(glint_scenario *s)
 {
     if (!s) return;
     expectations_free(s);
+    earth_light_free(&s->earth, s->n_bands);
     satellite_free(&s->satellite);
     scenario_orbit_free(&s->orbit);
     attitude_plan_free(&s->attitude);

@@ -48,6 +48,10 @@ void read_hinge(reading *rd, const toml_node *table, hinge *out);
 void read_geometry(reading *rd, const toml_node *table);
 /* The tables of a model: materials_from, materials, component. */
 void read_model_tables(reading *rd, reader *r);
+/* The Earth's light: what [photometry] says of it, and, once there is a satellite, the source. */
+void read_earthshine(reading *rd, reader *photometry);
+void make_earthshine(reading *rd);
+void earth_light_free(earth_light *earth, int n_bands);
 void read_expectations(reading *rd, reader *root);
 
 void satellite_free(satellite *sat);

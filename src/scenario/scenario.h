@@ -4,6 +4,7 @@
 
 #include "base/band.h"
 #include "base/csv.h"
+#include "facets/globe.h"
 #include "facets/model.h"
 #include "facets/visibility.h"
 #include "orbit/attitude_plan.h"
@@ -108,6 +109,15 @@ typedef enum solar_disc_choice {
     SOLAR_POINT
 } solar_disc_choice;
 
+/* The Earth as a source of light. */
+typedef struct earth_light {
+    bool wanted;
+    brdf_material *ground; /* owned; n_bands; of the sphere */
+    double radius_m;
+    int64_t rings; /* of nodes; 0: as the materials ask for */
+    globe *source; /* owned; NULL where it is not wanted, or there is no satellite */
+} earth_light;
+
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
 enum { SHARES_MATERIAL = 1u, SHARES_COMPONENT = 2u };
@@ -194,6 +204,7 @@ struct glint_scenario {
     magnitude_system systems[SCENARIO_MAX_BANDS];
     double sun_magnitude[SCENARIO_MAX_BANDS];
     solar_disc_choice solar_disc;
+    earth_light earth;
     bool has_extinction;
     double extinction[SCENARIO_MAX_BANDS]; /* mag per airmass; 0 without */
 
