@@ -65,7 +65,8 @@ static run *run_of(const char *earthshine, int threads)
 START_TEST(test_earthshine_adds_to_sunlight)
 {
     run *without = run_of("false", 1), *with = run_of("{ albedo = 0.3 }", 1);
-    int n_umbra = 0, n_day = 0;
+    const double most = 0.5 * 1.74 * 0.3 / 3.14 / (780e3 * 780e3);
+    int n_day = 0;
     ck_assert(!without->has_earth && with->has_earth);
     ck_assert_int_eq(with->n, without->n);
     for (int k = 0; k < with->n; k++) {
@@ -73,15 +74,12 @@ START_TEST(test_earthshine_adds_to_sunlight)
         assert_rel(with->flux[k][0], without->flux[k][0] + earth, 1e-14);
         ck_assert_int_eq(!!(with->flags[k] & GLINT_UMBRA), !!(without->flags[k] & GLINT_UMBRA));
         if (with->flux[k][0] > 0) assert_near(with->shares[k], 1, 1e-12);
-        if (!(with->sunlit[k] > 0)) {
-            n_umbra += earth > 0;
-            ck_assert(!!(with->flags[k] & GLINT_DARK) == !(earth > 0));
-        }
+        /* Where the limb hides the Sun, all ground in sight is dark: but for flattening. */
+        if (!(with->sunlit[k] > 0)) ck_assert(earth < 1e-4 * most);
         /* no box of 1 m^2 sides, rho 0.5, shines by more: E < 0.3, 1.7 m^2 seen, 780 km */
-        ck_assert(earth >= 0 && earth < 0.5 * 1.74 * 0.3 / 3.14 / (780e3 * 780e3) * 1.1);
+        ck_assert(earth >= 0 && earth < 1.1 * most);
         n_day += earth > 0;
     }
-    ck_assert_int_ge(n_umbra, 3); /* the crescent, when the Sun has just set */
     ck_assert_int_ge(n_day, 50);
     free(with);
     free(without);

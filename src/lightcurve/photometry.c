@@ -71,9 +71,7 @@ static unsigned flags_of(const glint_scenario *s, const tile_geometry *g, int k,
         flags |= GLINT_UMBRA;
     else if (g->sunlit[k] < 1)
         flags |= GLINT_PENUMBRA;
-    /* The umbra by itself tells why a row is dark, unless the Earth might have lit it. */
-    const bool explained = flags & GLINT_BELOW_HORIZON || (flags & GLINT_UMBRA && !s->earth.wanted);
-    if (!explained && !bright) flags |= GLINT_DARK;
+    if (!flags || flags == GLINT_PENUMBRA) flags |= bright ? 0 : GLINT_DARK;
     if (at_site && g->sun_elevation[k] < s->sun_elevation_max) flags |= GLINT_SITE_DARK;
     if (g->moon_covers[k]) flags |= GLINT_MOON_SHADOW;
     return flags;
