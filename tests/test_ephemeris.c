@@ -64,6 +64,7 @@ static void assert_vector(const double got[3], const double want[3], double tole
 static void check_topocentric(const char *path)
 {
     csv_table t = table_open(path);
+    double worst_deg = 0.0, worst_km = 0.0;
     for (long k = 0; k < t.n_rows; k++) {
         const double latitude = table_number(&t, k, "lat_deg"),
                      longitude = table_number(&t, k, "lon_deg"),
@@ -86,7 +87,13 @@ static void check_topocentric(const char *path)
         assert_near(late.azimuth_rad / DEG, table_number(&t, k, "lt_az_deg"), 1e-6);
         assert_near(late.elevation_rad / DEG, table_number(&t, k, "lt_el_deg"), 1e-6);
         assert_near(late.range_m * 1e-3, table_number(&t, k, "lt_range_km"), 1e-5);
+        worst_deg =
+            fmax(worst_deg, fabs(late.elevation_rad / DEG - table_number(&t, k, "lt_el_deg")));
+        worst_deg =
+            fmax(worst_deg, fabs(late.azimuth_rad / DEG - table_number(&t, k, "lt_az_deg")));
+        worst_km = fmax(worst_km, fabs(late.range_m * 1e-3 - table_number(&t, k, "lt_range_km")));
     }
+    printf("%s: %ld rows, worst: %.2g deg, %.2g km\n", path, t.n_rows, worst_deg, worst_km);
     csv_free(&t);
 }
 

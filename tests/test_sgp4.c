@@ -69,8 +69,13 @@ static tle parse(const char *line1, const char *line2)
     return elements;
 }
 
+/* The largest deviations of a component from a table. */
+typedef struct deviation {
+    double km, km_s;
+} deviation;
+
 static void assert_state(int number, double minutes, const double r_m[3], const double v_m_s[3],
-                         const double r_km[3], const double v_km_s[3])
+                         const double r_km[3], const double v_km_s[3], deviation *worst)
 {
     for (int k = 0; k < 3; k++) {
         const double dr_km = r_m[k] / 1000.0 - r_km[k], dv_km_s = v_m_s[k] / 1000.0 - v_km_s[k];
@@ -79,6 +84,8 @@ static void assert_state(int number, double minutes, const double r_m[3], const 
         ck_assert_msg(is_near(dv_km_s, 0.0, velocity_tolerance_km_s),
                       "%d at %g min: the rate of %c is off by %g km/s", number, minutes, "xyz"[k],
                       dv_km_s);
+        worst->km = fmax(worst->km, fabs(dr_km));
+        worst->km_s = fmax(worst->km_s, fabs(dv_km_s));
     }
 }
 
@@ -87,6 +94,7 @@ static void assert_state(int number, double minutes, const double r_m[3], const 
 START_TEST(test_sgp4_state_matches_published_rows)
 {
     csv_table table = table_open(path_in(TEST_DATA_DIR, "sgp4_verification.csv"));
+    deviation worst = {0};
     for (long row = 0; row < table.n_rows; row++) {
         const int number = (int)table_number(&table, row, "number");
         const double minutes = table_number(&table, row, "minutes");
@@ -95,7 +103,7 @@ START_TEST(test_sgp4_state_matches_published_rows)
         table_vector(&table, row, "v", "_km_s", v_km_s);
         sgp4 *s = prepare_number(number);
         ck_assert_int_eq(sgp4_state(s, minutes, NULL, r_m, v_m_s, NULL), GLINT_OK);
-        assert_state(number, minutes, r_m, v_m_s, r_km, v_km_s);
+        assert_state(number, minutes, r_m, v_m_s, r_km, v_km_s, &worst);
         sgp4_free(s);
     }
     csv_free(&table);
@@ -103,7 +111,7 @@ START_TEST(test_sgp4_state_matches_published_rows)
 END_TEST
 
 /* Compares the rows of one satellite up to the next header line; returns their number. */
-static int compare_block(FILE *expected, const tle *elements, double *last_min)
+static int compare_block(FILE *expected, const tle *elements, double *last_min, deviation *worst)
 {
     char line[2 * LINE_ROOM];
     sgp4 *s = prepare(elements);
@@ -119,7 +127,7 @@ static int compare_block(FILE *expected, const tle *elements, double *last_min)
         glint_error error;
         const glint_status status = sgp4_state(s, minutes, &cursor, r_m, v_m_s, &error);
         ck_assert_msg(status == GLINT_OK, "%s", error.message);
-        assert_state(elements->number, minutes, r_m, v_m_s, r_km, v_km_s);
+        assert_state(elements->number, minutes, r_m, v_m_s, r_km, v_km_s, worst);
         *last_min = minutes;
         rows++;
     }
@@ -138,12 +146,14 @@ START_TEST(test_sgp4_state_matches_whole_verification_set)
     ck_assert_ptr_nonnull(expected);
     ck_assert_ptr_nonnull(fgets(line, sizeof line, expected));
     int rows = 0, ended_early = 0;
+    deviation worst = {0};
     for (int k = 0; k < v.count; k++) {
         double last_min = 0.0;
-        rows += compare_block(expected, &v.elements[k], &last_min);
+        rows += compare_block(expected, &v.elements[k], &last_min, &worst);
         ended_early += last_min < v.stop_min[k];
     }
     fclose(expected);
+    printf("verification set: %d rows, worst: %.2g km, %.2g km/s\n", rows, worst.km, worst.km_s);
     ck_assert_int_eq(v.count, 33);
     ck_assert_int_eq(rows, 666); /* 667 lines less the repeated one */
     ck_assert_int_eq(ended_early, 7);

@@ -137,3 +137,23 @@ else()
         "echo 'SKIPPED: ephemerides against other programs: no python3'; exit 77")
 endif()
 set_tests_properties(ecsv astronomy PROPERTIES SKIP_RETURN_CODE 77)
+
+# Against the sky, and against another study of it; formulas written down a second time. 77: the
+# reference data are not there.
+foreach(what formulas study cases sky)
+    if(GLINT_PYTHON)
+        add_test(NAME starlink_${what} COMMAND ${GLINT_PYTHON}
+            ${CMAKE_CURRENT_SOURCE_DIR}/validation/starlink_v15.py $<TARGET_FILE:glint_program> ${what})
+    else()
+        add_test(NAME starlink_${what} COMMAND sh -c "echo 'SKIPPED: starlink ${what}: no python3'; exit 77")
+    endif()
+    set_tests_properties(starlink_${what} PROPERTIES SKIP_RETURN_CODE 77)
+endforeach()
+
+# The numbers of docs/validation.md: some thousands of runs, minutes; `ctest -C long` has it.
+if(GLINT_PYTHON)
+    add_test(NAME starlink_steps CONFIGURATIONS long COMMAND ${GLINT_PYTHON}
+        ${CMAKE_CURRENT_SOURCE_DIR}/validation/starlink_v15.py $<TARGET_FILE:glint_program> steps
+        ${PROJECT_SOURCE_DIR}/docs/validation.md)
+    set_tests_properties(starlink_steps PROPERTIES SKIP_RETURN_CODE 77)
+endif()
