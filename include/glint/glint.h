@@ -107,6 +107,8 @@ typedef struct glint_row {
     double sun_elevation_rad;      /* topocentric, geometric */
     double airmass;                /* 0 below the horizon */
     double height_m;               /* geodetic, of the satellite; 0 where nothing asks for it */
+    double angular_rate_rad_s;     /* against the stars; 0 in [geometry] runs */
+    double site_height_m;          /* of the observer above the ellipsoid; 0 where it is no site */
     unsigned flags;                /* glint_flag */
     const double *flux_ratio;      /* n_bands: irradiance at the observer over the Sun's at 1 au */
     const double *magnitude;       /* n_bands; only where flux_ratio > 0, else 0 */

@@ -10,6 +10,11 @@ typedef enum column_kind {
     COLUMN_T,
     COLUMN_MAGNITUDE, /* index: band */
     COLUMN_FLUX,      /* index: band */
+    COLUMN_STANDARD_90, /* index: band; at 1000 km and a phase angle of 90 deg */
+    COLUMN_STANDARD_0,  /* at 1000 km, full */
+    COLUMN_SIGMA,       /* index: band */
+    COLUMN_SNR,         /* index: band */
+    COLUMN_ANGULAR_RATE,
     COLUMN_RANGE,
     COLUMN_PHASE,
     COLUMN_SUNLIT,
@@ -23,6 +28,7 @@ typedef enum column_kind {
 } column_kind;
 
 typedef struct column_set {
+    const glint_scenario *s; /* borrowed */
     glint_column *columns; /* owned */
     column_kind *kinds;    /* owned */
     int *indices;          /* owned */

@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "lightcurve/columns.h"
 #include "lightcurve/coverage.h"
+#include "lightcurve/exposure.h"
 #include "lightcurve/facts.h"
 #include "lightcurve/tile.h"
 
@@ -24,13 +25,14 @@ struct glint_curve {
     visibility *plan;        /* owned; NULL where no shadows are wanted or none can be */
     int n_threads;
     tile_worker *workers; /* owned; n_threads */
+    exposure_worker *exposures; /* owned; n_threads; NULL where rows are samples */
     frame_grid *grid;     /* owned; covers grid_from_s to grid_to_s */
     double grid_from_s, grid_to_s;
     size_t block;             /* rows of a block */
     int64_t next;             /* first step of the next block */
-    glint_row *rows, *chosen; /* owned; block */
-    double *flux_ratio, *magnitude, *share_material, *share_component; /* owned */
-    coverage watched;                                                  /* measured materials */
+    photometry_rows rows;     /* owned; block */
+    glint_row *chosen;        /* owned; block */
+    coverage watched;         /* measured materials */
     unsigned char *outside; /* owned; block x watched.n: of coverage_mark */
     int64_t *n_outside;     /* owned; watched.n: rows handed out so far of which that holds */
     column_set columns;
@@ -43,6 +45,11 @@ static bool make_workers(glint_curve *c)
     if (!c->workers) return false;
     for (int i = 0; i < c->n_threads; i++)
         if (tile_worker_make(c->s, c->plan, &c->workers[i], NULL)) return false;
+    if (!(c->s->exposure_s > 0)) return true;
+    c->exposures = calloc((size_t)c->n_threads, sizeof *c->exposures);
+    if (!c->exposures) return false;
+    for (int i = 0; i < c->n_threads; i++)
+        if (exposure_worker_make(c->s, &c->exposures[i], NULL)) return false;
     return true;
 }
 
@@ -54,16 +61,11 @@ static bool make_rows(glint_curve *c)
     const size_t width = 2 * n_bands + n_materials + n_components;
     const size_t fitting = BLOCK_NUMBERS / width / TILE * TILE;
     c->block = fitting < TILE ? TILE : fitting > BLOCK_MOST ? BLOCK_MOST : fitting;
-    c->rows = calloc(c->block, sizeof *c->rows);
     c->chosen = calloc(c->block, sizeof *c->chosen);
-    c->flux_ratio = calloc(c->block * n_bands, sizeof(double));
-    c->magnitude = calloc(c->block * n_bands, sizeof(double));
-    c->share_material = calloc(c->block * n_materials, sizeof(double));
-    c->share_component = calloc(c->block * n_components, sizeof(double));
     c->outside = calloc(c->block * (size_t)c->watched.n + 1, sizeof *c->outside);
     c->n_outside = calloc((size_t)c->watched.n + 1, sizeof *c->n_outside);
-    return c->outside && c->n_outside && c->rows && c->chosen && c->flux_ratio && c->magnitude &&
-           c->share_material && c->share_component;
+    return c->outside && c->n_outside && c->chosen &&
+           !photometry_rows_make(c->s, c->block, &c->rows, NULL);
 }
 
 static bool asks_for_height(const glint_scenario *s)
@@ -116,15 +118,14 @@ void glint_curve_close(glint_curve *c)
     if (!c) return;
     for (int i = 0; c->workers && i < c->n_threads; i++)
         tile_worker_free(&c->workers[i]);
+    for (int i = 0; c->exposures && i < c->n_threads; i++)
+        exposure_worker_free(&c->exposures[i]);
+    free(c->exposures);
     free(c->workers);
     visibility_free(c->plan);
     frame_grid_free(c->grid);
-    free(c->rows);
+    photometry_rows_free(&c->rows);
     free(c->chosen);
-    free(c->flux_ratio);
-    free(c->magnitude);
-    free(c->share_material);
-    free(c->share_component);
     free(c->outside);
     free(c->n_outside);
     coverage_free(&c->watched);
@@ -149,10 +150,11 @@ static glint_status cover_block(glint_curve *c, int64_t n, glint_error *error)
 {
     static const double AHEAD_S = 4 * DAY_S;
     if (c->s->has_geometry) return GLINT_OK;
-    const double step_s = c->s->step_s, from_s = (double)c->next * step_s;
-    const double to_s = (double)(c->next + n - 1) * step_s;
+    const double step_s = c->s->step_s, half_s = 0.5 * c->s->exposure_s;
+    const double from_s = (double)c->next * step_s - half_s;
+    const double to_s = (double)(c->next + n - 1) * step_s + half_s;
     if (c->grid && from_s >= c->grid_from_s && to_s <= c->grid_to_s) return GLINT_OK;
-    const double end_s = (double)(c->s->n_steps - 1) * step_s;
+    const double end_s = (double)(c->s->n_steps - 1) * step_s + half_s;
     double reach_s = from_s + AHEAD_S < end_s ? from_s + AHEAD_S : end_s;
     if (reach_s < to_s) reach_s = to_s;
     const earth_orientation still = {0, 0};
@@ -174,11 +176,14 @@ static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, 
         geometry_fill(s, c->grid, c->wanted, first, n, &w->geometry, &w->tile, w->lights, error);
     if (status) return status;
     const photometry_rows rows = {
-        c->rows + at, c->flux_ratio + at * s->n_bands, c->magnitude + at * s->n_bands,
-        c->share_material + at * m->n_materials, c->share_component + at * m->n_components};
+        c->rows.rows + at, c->rows.flux_ratio + at * s->n_bands,
+        c->rows.magnitude + at * s->n_bands, c->rows.share_material + at * m->n_materials,
+        c->rows.share_component + at * m->n_components};
     const glint_status summed = tile_worker_sum(s, w, &rows, error);
-    if (!summed && c->watched.n > 0) coverage_mark(&c->watched, w, c->outside + at * c->watched.n);
-    return summed;
+    if (summed) return summed;
+    if (c->watched.n > 0) coverage_mark(&c->watched, w, c->outside + at * c->watched.n);
+    if (!c->exposures) return GLINT_OK;
+    return exposure_average(s, c->grid, w, &c->exposures[w - c->workers], n, &rows, error);
 }
 
 /* All tiles of the block, over the threads; tiles are the same for any number of them. The error of
@@ -217,7 +222,7 @@ static bool is_wanted(const glint_scenario *s, const glint_row *row)
 /* Hands out row k of the block, and counts what was not measured in it. */
 static void choose_row(glint_curve *c, int64_t k, size_t *n)
 {
-    c->chosen[(*n)++] = c->rows[k];
+    c->chosen[(*n)++] = c->rows.rows[k];
     for (int j = 0; j < c->watched.n; j++)
         c->n_outside[j] += c->outside[k * c->watched.n + j];
 }
@@ -237,7 +242,7 @@ glint_status glint_curve_next(glint_curve *c, const glint_row **rows, size_t *n,
             return status;
         }
         for (int64_t k = 0; k < count; k++)
-            if (is_wanted(c->s, &c->rows[k])) choose_row(c, k, n);
+            if (is_wanted(c->s, &c->rows.rows[k])) choose_row(c, k, n);
         c->next += count;
     }
     return GLINT_OK;

@@ -205,6 +205,17 @@ static void fill_site(const glint_scenario *s, const sighting *seen, int k, tile
     sky_place(s, &seen->frames, sun, &sun_azimuth, &out->sun_elevation[k]);
 }
 
+/* How fast the satellite moves against the stars, as the site sees it. */
+static double angular_rate(const sighting *seen)
+{
+    double spin[3], velocity[3];
+    scale3(seen->frames.itrs_gcrs + 6, EARTH_TURN_RAD_S, spin);
+    cross3(spin, seen->site_gcrs_m, velocity);
+    sub3(seen->moment.v_m_s, velocity, velocity);
+    add_scaled3(velocity, -dot3(velocity, seen->sight_gcrs), seen->sight_gcrs, velocity);
+    return norm3(velocity) / seen->range_m;
+}
+
 /* One row of a run with an orbit. */
 static glint_status fill_row(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
                              double guess_s, int k, geometry_worker *worker, tile_geometry *out,
@@ -215,6 +226,7 @@ static glint_status fill_row(const glint_scenario *s, const frame_grid *grid, un
     const moment *m = &seen->moment;
     const double *pole = m->itrs_gcrs + 6;
     out->range_m[k] = seen->range_m;
+    out->angular_rate[k] = angular_rate(seen);
     out->phase_angle[k] = angle3(m->sun, m->observer);
     out->sunlit[k] = eclipse_sunlit_fraction(m->r_m, m->sun, seen->sun_distance_m, pole);
     const double au = AU_M / seen->sun_distance_m;
@@ -249,6 +261,7 @@ static glint_status fill_given_row(const glint_scenario *s, int64_t row, int k,
     out->sunlit[k] = out->sun_weight[k] = 1;
     out->sun_radius[k] = asin(SUN_RADIUS_M / AU_M);
     out->seen[k] = true;
+    out->angular_rate[k] = 0;
     const glint_status status =
         turn_components(&s->satellite, &m, body, worker->component_gcrs, NULL, error);
     if (status) return status;

@@ -21,6 +21,7 @@ typedef struct tile_geometry {
     double sun_weight[TILE];  /* sunlit x (1 au / distance of the Sun)^2 */
     double azimuth[TILE], elevation[TILE], sun_elevation[TILE]; /* of a site */
     double height_m[TILE]; /* geodetic, of the satellite; only with GEOMETRY_HEIGHT */
+    double angular_rate[TILE]; /* of the satellite against the stars, rad/s; good to 1e-4 */
     bool seen[TILE];       /* not below the horizon */
     bool any_bright;       /* some lane is seen and sunlit: the sum is needed */
     double sun[TILE][3], observer[TILE][3]; /* unit; GCRS, or body where directions are given */

@@ -76,6 +76,24 @@ typedef enum solar_disc_choice {
     SOLAR_POINT
 } solar_disc_choice;
 
+/* How the airmass follows from the elevation. */
+typedef enum airmass_choice { AIRMASS_KASTEN_YOUNG, AIRMASS_PICKERING } airmass_choice;
+
+/* Magnitudes at 1000 km: columns that are asked for. */
+enum { STANDARD_PHASE_90 = 1u, STANDARD_PHASE_0 = 2u };
+
+/* A telescope with a camera. */
+typedef struct telescope {
+    double aperture_m;                      /* diameter */
+    double electrons_s[SCENARIO_MAX_BANDS]; /* from a star of magnitude 0, above the atmosphere */
+    double sky_mag[SCENARIO_MAX_BANDS];     /* per square arcsec */
+    double pixel_rad, seeing_fwhm_rad;
+    double half_width_rad; /* of the box in which light is summed, beside and beyond the trail */
+    double read_noise_e, dark_current_e_s; /* per pixel */
+    double scintillation;                  /* coefficient of Young's formula, m^(2/3) s^(1/2) */
+    bool follows;                          /* the satellite, so that it leaves no trail */
+} telescope;
+
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
 enum { SHARES_MATERIAL = 1u, SHARES_COMPONENT = 2u };
@@ -140,6 +158,7 @@ struct glint_scenario {
     double span_s; /* from start to end, TT */
     double step_s;
     int64_t n_steps;
+    double exposure_s; /* light is averaged over it, centred on a row's time; 0: a sample */
 
     const char *site_name; /* "" where not said */
     earth_site site;
@@ -160,6 +179,9 @@ struct glint_scenario {
     solar_disc_choice solar_disc;
     bool has_extinction;
     double extinction[SCENARIO_MAX_BANDS]; /* mag per airmass; 0 without */
+    airmass_choice airmass;
+    bool has_telescope;
+    telescope telescope;
 
     bool light_time, aberration;
     double dut1_s;
@@ -167,6 +189,7 @@ struct glint_scenario {
     rows_choice rows;
     double sun_elevation_max; /* rad; of a dark site */
     unsigned shares;
+    unsigned standard; /* STANDARD_... */
 
     expectation *expectations; /* owned */
     int n_expectations;
