@@ -75,6 +75,7 @@ static void prepare(const geometry_case *c, setup *s)
         fail(c->name, NULL, error.message);
     const size_t n_components = (size_t)s->scenario->satellite.n_components;
     s->lights = aligned_alloc(64, n_components * sizeof *s->lights);
+    s->worker.viewer.observer = s->scenario->observers;
     s->worker.component_gcrs = calloc(n_components, sizeof *s->worker.component_gcrs);
     if (!s->lights || !s->worker.component_gcrs) fail(c->name, NULL, "out of memory");
     memset(s->lights, 0, n_components * sizeof *s->lights);

@@ -2,26 +2,31 @@
  * steps, those that are not lit or not seen counted), on one core, over random attitudes at a phase
  * angle of 60 deg.
  *
- *   craft    a bus with two wings of panels (white on the back), a dish, a tank and units on its
- * walls boxes    boxes in any position, some of them through others: closed convex bodies plates
- * plates in any position: nothing is closed, everything overlaps lump     a closed mesh of
- * triangles with hills and dales
+ *   craft    a bus with two wings of panels (white on the back), a dish, a tank, units on its walls
+ *   station  modules of many sides across each other, and pairs of panels on a truss
+ *   foil     a bus in crinkled foil with two dishes and a mast
+ *   lump     a closed mesh of triangles with hills and dales
+ *   boxes    boxes in any position, some of them through others: closed convex bodies
+ *   plates   plates in any position: nothing is closed, everything overlaps
  *
- * usage: bench_shadows [MODEL FACETS]     one case instead of all
- * Prints a table: M facet-samples/s; ns a facet that is lit and seen; how large a part of the lit
- * and seen area is left. */
+ * usage: bench_shadows [MODEL [FACETS]]     some cases instead of all
+ * Prints a table: milliseconds of the plan; M facet-samples/s of the first rows, and of rows after
+ * WARM_ROWS others; of these, ns a facet that is lit and seen, and percent of the time that goes
+ * into looking from both directions, into finding candidates by the walk (an upper bound: lists
+ * spare many walks), and into the rest: taking covers, cutting; how large a part of the lit and
+ * seen area is left. */
 #include "timing.h"
 
 #include "base/constants.h"
 #include "base/vec.h"
-#include "facets/visibility.h"
+#include "facets/visibility_view.h"
 
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { ROUNDS = 5 };
-static const double AT_LEAST_S = 0.1; /* of each measurement */
+enum { ROUNDS = 3 };
+static const double AT_LEAST_S = 0.05; /* of each measurement */
 static const double PHASE_DEG = 60.0;
 
 static void fail(const char *what)
@@ -178,6 +183,95 @@ static void make_craft(facet_list *list, int n, uint64_t *state)
     }
 }
 
+static void set_key(primitive_spec *spec, const char *key, double x, double y, double z)
+{
+    const int k = primitive_key_index(spec->kind, key);
+    if (k < 0) fail("a primitive has no such key");
+    spec->given[k] = true;
+    spec->value[k][0] = x, spec->value[k][1] = y, spec->value[k][2] = z;
+}
+
+static void add_primitive(facet_list *list, primitive_spec *spec)
+{
+    const int k = primitive_key_index(spec->kind, "material");
+    spec->given[k] = true;
+    spec->material[k] = 0;
+    if (primitive_add(spec, 0, list, NULL)) fail("a primitive was refused");
+    primitive_spec_free(spec);
+}
+
+static primitive_spec start_primitive(const char *kind)
+{
+    primitive_spec spec;
+    primitive_spec_start(primitive_kind_named(kind), (place){0}, &spec);
+    return spec;
+}
+
+static void add_prism(facet_list *list, int sides, double radius_m, double length_m,
+                      const double centre[3], const double axis[3])
+{
+    primitive_spec spec = start_primitive("prism");
+    set_key(&spec, "sides", sides, 0, 0);
+    set_key(&spec, "radius_m", radius_m, 0, 0);
+    set_key(&spec, "length_m", length_m, 0, 0);
+    set_key(&spec, "centre_m", centre[0], centre[1], centre[2]);
+    set_key(&spec, "axis", axis[0], axis[1], axis[2]);
+    add_primitive(list, &spec);
+}
+
+/* Three or seven modules of at most 48 sides, along x and z in turn; the rest are panels. */
+static void make_station(facet_list *list, int n, uint64_t *state)
+{
+    const int n_modules = n < 200 ? 3 : 7, most = n / 2 / n_modules - 2;
+    const int sides = most < 48 ? most : 48;
+    const double truss_lo[3] = {-1, -30, -1}, truss_hi[3] = {1, 30, 1};
+    (void)state;
+    for (int k = 0; k < n_modules; k++) {
+        const bool along = k % 2 == 0;
+        const double at = 12.0 * (k - 0.5 * (n_modules - 1)) / n_modules;
+        const double centre[3] = {at + 8, 0.3 * at, along ? 0.5 * at : 0};
+        const double axis[3] = {along, 0.1, !along};
+        add_prism(list, sides < 3 ? 3 : sides, 2.0 - 0.5 * along, 30.0 / n_modules + 3, centre,
+                  axis);
+    }
+    add_straight_box(list, truss_lo, truss_hi);
+    const int rows = (n - list->n) / 16;
+    for (int wing = 0; wing < 8; wing++)
+        for (int row = 0; row < rows; row++) {
+            const double pitch_m = 30.0 / rows, v[3] = {0, 0, 0.98 * pitch_m}, u[3] = {1.6, 4, 0};
+            const double y = (wing % 2 ? 1 : -1) * (wing / 2 % 2 ? 18 : 26) - 2;
+            const double z = wing / 4 ? 2 + pitch_m * row : -2 - pitch_m * (row + 1);
+            const double corner[3] = {-0.8, y, z};
+            add_panel(list, corner, u, v);
+        }
+}
+
+/* Two thirds of the facets in the foil on the six faces of the bus, a third in the dishes. */
+static void make_foil(facet_list *list, int n, uint64_t *state)
+{
+    static const double axes[2][3] = {{1, 0, 0.3}, {-1, 0.2, 0.2}}, mast[3] = {0, 0, 2.5};
+    static const double up[3] = {0, 0, 1};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        primitive_spec dish = start_primitive("dish");
+        set_key(&dish, "radius_m", 0.9, 0, 0);
+        set_key(&dish, "depth_m", 0.3, 0, 0);
+        set_key(&dish, "sides", n < 200 ? 6 : floor(sqrt(0.3 * n)), 0, 0);
+        set_key(&dish, "rings", n < 200 ? 1 : floor(sqrt(0.1 * n)), 0, 0);
+        set_key(&dish, "centre_m", axes[k][0] * 1.3, k ? 0.9 : -0.9, 1);
+        set_key(&dish, "axis", axes[k][0], axes[k][1], axes[k][2]);
+        add_primitive(list, &dish);
+    }
+    add_prism(list, 12, 0.1, 2, mast, up);
+    primitive_spec bus = start_primitive("box");
+    set_key(&bus, "size_m", 2, 2, 3);
+    const int side = (int)sqrt((n - list->n) / 6.0);
+    bus.crinkle =
+        (crinkle){.facets_per_side = side < 2 ? 2 : side, .tilt_rms_rad = 4 * DEG, .seed = 7};
+    bus.given[primitive_key_index(bus.kind, "crinkle")] = true;
+    add_primitive(list, &bus);
+}
+
 static void make_boxes(facet_list *list, int n, uint64_t *state)
 {
     const double reach = 3.0, size = 1.4 * cbrt(30.0 / n);
@@ -241,38 +335,74 @@ typedef struct model_case {
     void (*make)(facet_list *list, int n, uint64_t *state);
 } model_case;
 
-static const model_case MODELS[] = {
-    {"craft", make_craft}, {"boxes", make_boxes}, {"plates", make_plates}, {"lump", make_lump}};
+static const model_case MODELS[] = {{"craft", make_craft}, {"station", make_station},
+                                    {"foil", make_foil},   {"lump", make_lump},
+                                    {"boxes", make_boxes}, {"plates", make_plates}};
 static const int FACETS[] = {72, 1000, 10000};
 
 /* --- measuring --- */
+
+/* Rows after which lists have been made for most directions (visibility_sectors.h). */
+enum { WARM_ROWS = 500 };
 
 typedef struct scene {
     model model;
     visibility *plan;
     visibility_scratch *scratch;
     visibility_pose pose;
-    int steps;
-    double (*sun)[3], (*observer)[3]; /* owned; of each step */
+    int first, n;                     /* rows of the next run */
+    double (*sun)[3], (*observer)[3]; /* owned; of all rows */
     double *visible;                  /* owned */
+    view views[2];
+    int *nodes, *candidates; /* owned; for the walk */
 } scene;
 
-static void run(void *data)
+static void fill(void *data)
 {
     scene *s = data;
-    for (int k = 0; k < s->steps; k++)
+    for (int k = s->first; k < s->first + s->n; k++)
         if (visibility_fill(s->plan, s->scratch, &s->pose, s->sun[k], s->observer[k], k % BRDF_TILE,
                             s->visible, NULL))
             fail("out of memory");
 }
 
-static void make_directions(scene *s)
+/* Looks from both directions, and nothing else. */
+static void project(void *data)
+{
+    scene *s = data;
+    for (int k = s->first; k < s->first + s->n; k++) {
+        view_set_wide(s->plan, &s->pose, s->sun[k], 0.0, &s->views[0]);
+        view_set_wide(s->plan, &s->pose, s->observer[k], 0.0, &s->views[1]);
+    }
+}
+
+/* The same, and walks for every facet that is lit and seen. */
+static void walk(void *data)
+{
+    scene *s = data;
+    for (int k = s->first; k < s->first + s->n; k++) {
+        view_set_wide(s->plan, &s->pose, s->sun[k], 0.0, &s->views[0]);
+        view_set_wide(s->plan, &s->pose, s->observer[k], 0.0, &s->views[1]);
+        for (int e = 0; e < s->plan->n_exposed; e++) {
+            const exposed_facet *f = &s->plan->exposed[e];
+            const bool counts = s->views[0].cosine[f->facet] > BRDF_EDGE &&
+                                s->views[1].cosine[f->facet] > BRDF_EDGE;
+            for (int which = 0; which < 2 && counts; which++) {
+                shaft before;
+                shaft_make(s->plan, &s->views[which], f, 0.0, &before);
+                view_candidates(s->plan, &s->views[which], &before, 0, s->nodes, s->candidates);
+            }
+        }
+    }
+}
+
+static void make_directions(scene *s, int n)
 {
     const double sun[3] = {sin(PHASE_DEG * DEG), 0, cos(PHASE_DEG * DEG)}, observer[3] = {0, 0, 1};
     uint64_t state = 1;
-    s->sun = allocate((size_t)s->steps, sizeof *s->sun);
-    s->observer = allocate((size_t)s->steps, sizeof *s->observer);
-    for (int k = 0; k < s->steps; k++) {
+    s->sun = allocate((size_t)n, sizeof *s->sun);
+    s->observer = allocate((size_t)n, sizeof *s->observer);
+    for (int k = 0; k < n; k++) {
         double turn[9];
         random_rotation(&state, turn);
         mat_vec(turn, sun, s->sun[k]);
@@ -280,25 +410,66 @@ static void make_directions(scene *s)
     }
 }
 
-/* Facets that are lit and seen, over all steps; *left: part of their projected area that is left.
- */
+/* Facets that are lit and seen in the rows; *left: part of their projected area that is left. */
 static double count_active(scene *s, double *left)
 {
+    const int first = s->first, n_rows = s->n;
     double n = 0, all = 0, sum = 0;
-    for (int k = 0; k < s->steps; k++) {
-        visibility_fill(s->plan, s->scratch, &s->pose, s->sun[k], s->observer[k], 0, s->visible,
-                        NULL);
+    s->n = 1;
+    for (int k = first; k < first + n_rows; k++) {
+        s->first = k;
+        fill(s);
         for (int j = 0; j < s->model.n_facets; j++) {
             const facet *f = &s->model.polygons.items[j];
             const double ci = dot3(f->normal, s->sun[k]), cr = dot3(f->normal, s->observer[k]);
             if (ci <= BRDF_EDGE || cr <= BRDF_EDGE) continue;
             n++;
             all += ci * cr * f->area_m2;
-            sum += ci * cr * f->area_m2 * s->visible[(size_t)j * BRDF_TILE];
+            sum +=
+                ci * cr * f->area_m2 * s->visible[(size_t)j * BRDF_TILE + (size_t)(k % BRDF_TILE)];
         }
     }
+    s->first = first, s->n = n_rows;
     *left = sum / all;
     return n;
+}
+
+/* Milliseconds of the plan. */
+static double make_scene(const model_case *c, int n_facets, const model_material *material,
+                         scene *s)
+{
+    static const model_component component = {"all"};
+    visibility_component whole = {.parent = -1};
+    facet_list facets = {0};
+    uint64_t state = 7;
+    mat_identity(whole.pose.body_component);
+    s->pose = whole.pose;
+    c->make(&facets, n_facets, &state);
+    if (model_compile(&facets, material, 1, &component, 1, 1, &s->model, NULL)) fail("no model");
+    const double from_s = cpu_s();
+    if (visibility_make(&s->model, &whole, &s->plan, NULL)) fail("no plan");
+    const double plan_s = cpu_s() - from_s;
+    if (visibility_scratch_make(s->plan, &s->scratch, NULL)) fail("no scratch");
+    if (!view_allocate(&s->views[0], s->plan) || !view_allocate(&s->views[1], s->plan))
+        fail("out of memory");
+    s->nodes = allocate((size_t)s->plan->n_nodes + NODE_CHILDREN, sizeof *s->nodes);
+    s->candidates = allocate((size_t)s->plan->n_occluders + NODE_CHILDREN, sizeof *s->candidates);
+    s->visible = allocate((size_t)s->model.n_facets * BRDF_TILE, sizeof *s->visible);
+    return plan_s * 1e3;
+}
+
+static void free_scene(scene *s)
+{
+    visibility_scratch_free(s->scratch);
+    visibility_free(s->plan);
+    model_free(&s->model);
+    view_free(&s->views[0]);
+    view_free(&s->views[1]);
+    free(s->nodes);
+    free(s->candidates);
+    free(s->visible);
+    free(s->sun);
+    free(s->observer);
 }
 
 static void run_case(const model_case *c, int n_facets)
@@ -307,50 +478,45 @@ static void run_case(const model_case *c, int n_facets)
     brdf_lobe lobe = {.model = brdf_model_named("lambert"), .weight = 1};
     brdf_material band = {1, &lobe};
     const model_material material = {"grey", &band};
-    const model_component component = {"all"};
-    visibility_component whole = {.parent = -1};
-    facet_list facets = {0};
-    scene s = {.steps = n_facets > 5000 ? 32 : 256};
-    uint64_t state = 7;
+    scene s = {.n = n_facets > 5000 ? 32 : n_facets > 500 ? 256 : 1024};
     lobe.model->prepare(&reflectance, lobe.coef, NULL);
-    mat_identity(whole.pose.body_component);
-    s.pose = whole.pose;
-    c->make(&facets, n_facets, &state);
-    if (model_compile(&facets, &material, 1, &component, 1, 1, &s.model, NULL)) fail("no model");
-    const double from_s = cpu_s();
-    if (visibility_make(&s.model, &whole, &s.plan, NULL)) fail("no plan");
-    const double plan_s = cpu_s() - from_s;
-    if (visibility_scratch_make(s.plan, &s.scratch, NULL)) fail("no scratch");
-    s.visible = allocate((size_t)s.model.n_facets * BRDF_TILE, sizeof *s.visible);
-    make_directions(&s);
-    job fill = {.run = run, .data = &s};
-    measure(&fill, 1, ROUNDS, AT_LEAST_S);
+    const double plan_ms = make_scene(c, n_facets, &material, &s);
+    const int n_rows = s.n, n_all = WARM_ROWS + n_rows;
+    make_directions(&s, n_all);
+    s.n = n_facets > 5000 ? 32 : 64;
+    const double samples = s.model.n_facets, first_s = cpu_s();
+    fill(&s);
+    const double first = samples * s.n / (cpu_s() - first_s) * 1e-6;
+    s.first = s.n, s.n = WARM_ROWS - s.n;
+    fill(&s);
+    s.first = WARM_ROWS, s.n = n_rows;
+    job jobs[3] = {
+        {.run = fill, .data = &s}, {.run = project, .data = &s}, {.run = walk, .data = &s}};
+    measure(jobs, 3, ROUNDS, AT_LEAST_S);
     double left;
-    const double samples = (double)s.model.n_facets * s.steps, active = count_active(&s, &left);
-    printf("%-7s %7d %9d %8.2f %12.2f %12.0f %9.4f %14.9f\n", c->name, s.model.n_facets,
-           visibility_n_exposed(s.plan), plan_s * 1e3, samples / fill.least * 1e-6,
-           fill.least / active * 1e9, active / samples, left);
+    const double active = count_active(&s, &left), all_s = jobs[0].least;
+    const double look = 100 * jobs[1].least / all_s, found = 100 * jobs[2].least / all_s - look;
+    printf("%-8s %6d %8d %8.2f %7.2f %7.2f %10.0f %5.0f %5.0f %5.0f %8.4f\n", c->name,
+           s.model.n_facets, visibility_n_exposed(s.plan), plan_ms, first,
+           samples * n_rows / all_s * 1e-6, all_s / active * 1e9, look, found, 100 - look - found,
+           left);
     fflush(stdout);
-    visibility_scratch_free(s.scratch);
-    visibility_free(s.plan);
-    model_free(&s.model);
-    free(s.visible);
-    free(s.sun);
-    free(s.observer);
+    free_scene(&s);
 }
 
 int main(int argc, char **argv)
 {
-    if (argc != 1 && argc != 3) {
-        fputs("usage: bench_shadows [MODEL FACETS]\n", stderr);
+    if (argc > 3) {
+        fputs("usage: bench_shadows [MODEL [FACETS]]\n", stderr);
         return 2;
     }
     int n_run = 0;
-    printf("model    facets   exposed  plan/ms  Msamples/s    ns/active    active      left\n");
+    printf("model    facets  exposed  plan/ms   first   later  ns/active look%% walk%% rest%%     "
+           "left\n");
     for (size_t m = 0; m < sizeof MODELS / sizeof *MODELS; m++)
         for (size_t f = 0; f < sizeof FACETS / sizeof *FACETS; f++) {
-            if (argc == 3 && (strcmp(argv[1], MODELS[m].name) || atoi(argv[2]) != FACETS[f]))
-                continue;
+            if (argc > 1 && strcmp(argv[1], MODELS[m].name) != 0) continue;
+            if (argc > 2 && atoi(argv[2]) != FACETS[f]) continue;
             run_case(&MODELS[m], FACETS[f]);
             n_run++;
         }

@@ -17,6 +17,11 @@ if(BUILD_SHARED_LIBS)
 else()
     set(GLINT_IS_STATIC ON)
 endif()
+if(embree_FOUND)
+    set(GLINT_HAS_EMBREE ON)
+else()
+    set(GLINT_HAS_EMBREE OFF)
+endif()
 configure_package_config_file(cmake/glintConfig.cmake.in package/glintConfig.cmake
     INSTALL_DESTINATION ${GLINT_PACKAGE_DIR} NO_SET_AND_CHECK_MACRO)
 # Before 1.0 a minor version may break what worked.
@@ -27,6 +32,9 @@ install(FILES ${PROJECT_BINARY_DIR}/package/glintConfig.cmake
 # The pkg-config file; `pkg-config --static` adds what a static libglint needs.
 file(RELATIVE_PATH GLINT_PC_TO_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" GLINT_PC_TO_PREFIX ${GLINT_PC_TO_PREFIX})
+if(embree_FOUND)
+    set(GLINT_EMBREE_LIBS "-lembree3 ") # it has no pkg-config file
+endif()
 configure_file(cmake/glint.pc.in package/glint.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/package/glint.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 

@@ -260,7 +260,9 @@ axes='axis=[0,0,1],second_axis=[1,0,0]'
 described 'Top level' "$iss" "$q" "title=\"\"
 $q"
 described '`[time]`' "$iss" "time.$q"
-described '`[observer]`' "$iss" "observer.$q" "observer={satellite={},$q}"
+described '`[observer]`' "$iss" "observer.$q" "observer={satellite={},$q}" \
+    "observer={direction={},$q}" "observer.refraction={$q}" "observer={direction={$q}}" \
+    "observer={direction={frame=\"gcrs\",ra_deg=1,dec_deg=1,$q}}"
 described '`[orbit]`' "$iss" "orbit.$q" "orbit={tle_lines=[\"\",\"\"],$q}" "orbit={oem=\"\",$q}" \
     "orbit={stk=\"\",$q}" "orbit={sp3=\"\",$q}" \
     "orbit={kepler={$q}}" "orbit={circular={$q}}" \

@@ -1,5 +1,6 @@
 /* The Sun's disc behind the Earth's limb. */
 #include "orbit/eclipse.h"
+#include "orbit/moon.h"
 
 #include "base/constants.h"
 #include "base/vec.h"
@@ -222,6 +223,85 @@ START_TEST(test_eclipse_does_not_depend_on_frame)
 }
 END_TEST
 
+/* The Moon's disc of radius b before the Sun's of radius a: closed forms of the overlap. Half
+ * covered areas of equal discs: the lens of two unit circles at distance 1 is 2 pi/3 - sqrt(3)/2.
+ */
+START_TEST(test_eclipse_by_the_moon_follows_closed_forms)
+{
+    static const double MOON_M = 1737.4e3, SUN_M = 695700e3;
+    const double sun[3] = {1, 0, 0}, sun_m = AU_M, a = asin(SUN_M / sun_m);
+    const double equal_m = MOON_M / sin(a); /* both discs have the same size */
+    const struct {
+        double distance_m, separation, fraction;
+    } CASES[] = {
+        {equal_m, 0, 0},
+        {equal_m, a, 1 - (2 * PI / 3 - sqrt(3) / 2) / PI},
+        {equal_m, 2.0001 * a, 1},
+        {1.1 * equal_m, 0, 1 - pow(asin(sin(a) / 1.1) / a, 2)}, /* annular */
+        {0.9 * equal_m, 0.05 * a, 0},                           /* total */
+        {3.8e8, 1.0, 1},
+        {1e7, 1.0, 1},
+        {1.8e6, 1.0, 0}, /* just above the Moon: it fills the half of the sky */
+        {1e6, 2.0, 0},   /* inside */
+    };
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {
+        const double d = CASES[k].separation, r = CASES[k].distance_m;
+        const double moon[3] = {r * cos(d), 0.6 * r * sin(d), -0.8 * r * sin(d)};
+        /* rounding of the angles, 1e-16 rad in 1e-3, where the discs touch by a square root */
+        assert_near(eclipse_moon_fraction(moon, sun, sun_m), CASES[k].fraction, 1e-7);
+    }
+}
+END_TEST
+
+/* Places and directions from another program: from a point at rest on the geostationary circle the
+ * Moon passes before the Sun. Made with astropy 5.2.1 and ERFA; the table says how. */
+START_TEST(test_eclipse_by_the_moon_agrees_with_another_program)
+{
+    csv_table t = table_open(TEST_DATA_DIR "/orbit/moon_shadow.csv");
+    int partial = 0;
+    for (long row = 0; row < t.n_rows; row++) {
+        const double d = table_number(&t, row, "separation_deg") * DEG;
+        const double b = table_number(&t, row, "moon_radius_deg") * DEG;
+        const double a = table_number(&t, row, "sun_radius_deg") * DEG;
+        const double r = MOON_RADIUS_M / sin(b), sun[3] = {0, 0, 1};
+        const double moon[3] = {r * sin(d), 0, r * cos(d)};
+        const double want = table_number(&t, row, "fraction");
+        /* nine digits, of arc cosines that lose some */
+        assert_near(eclipse_moon_fraction(moon, sun, SUN_RADIUS_M / sin(a)), want, 2e-9);
+        partial += want > 0 && want < 1;
+    }
+    ck_assert_int_gt(partial, 15);
+    csv_free(&t);
+}
+END_TEST
+
+/* Two points on one circle of radius r about the equator: the chord between them passes the centre
+ * at r cos(half the angle). Over the poles the ellipsoid is lower. */
+START_TEST(test_eclipse_earth_is_between_where_the_chord_cuts_it)
+{
+    static const double SMALL = 1e-9;
+    const double polar_m = EARTH_RADIUS_M * (1 - EARTH_FLATTENING);
+    for (int k = 0; k < 20; k++) {
+        const double r = EARTH_RADIUS_M * (1.001 + 0.3 * k), half = acos(EARTH_RADIUS_M / r);
+        const double polar_half = acos(polar_m / r);
+        for (int side = -1; side <= 1; side += 2) {
+            const double angle = 2 * half + side * SMALL, c = cos(angle), s = sin(angle);
+            const double a[3] = {r, 0, 0}, b[3] = {r * c, r * s, 0};
+            ck_assert_int_eq(eclipse_earth_between(a, b, Z), side > 0);
+            ck_assert_int_eq(eclipse_earth_between(b, a, Z), side > 0);
+            /* symmetric about the pole, so that the chord is lowest above it */
+            const double p = polar_half + side * SMALL;
+            const double u[3] = {0, r * sin(p), r * cos(p)}, v[3] = {0, -r * sin(p), r * cos(p)};
+            ck_assert_int_eq(eclipse_earth_between(u, v, Z), side > 0);
+        }
+        /* on the same side, and from far behind: the nearest point of the line is not between */
+        const double a[3] = {r, 0, 0}, far[3] = {50 * r, 1, 2}, opposite[3] = {-50 * r, 1, 2};
+        ck_assert(!eclipse_earth_between(a, far, Z));
+        ck_assert(eclipse_earth_between(a, opposite, Z));
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("eclipse");
@@ -238,5 +318,8 @@ int main(void)
     tcase_add_test(tcase, test_eclipse_rises_steadily_through_penumbra);
     tcase_add_test(tcase, test_eclipse_is_dark_inside_earth);
     tcase_add_test(tcase, test_eclipse_does_not_depend_on_frame);
+    tcase_add_test(tcase, test_eclipse_by_the_moon_follows_closed_forms);
+    tcase_add_test(tcase, test_eclipse_by_the_moon_agrees_with_another_program);
+    tcase_add_test(tcase, test_eclipse_earth_is_between_where_the_chord_cuts_it);
     return run_suite(suite);
 }

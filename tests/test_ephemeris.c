@@ -370,6 +370,49 @@ START_TEST(test_ephemeris_tells_the_angles_of_hinges)
 }
 END_TEST
 
+/* A light curve of each kind of orbit stands where the ephemeris does. */
+START_TEST(test_ephemeris_agrees_with_light_curves)
+{
+    static const char *const ORBITS[] = {
+        ISS_LINES, GEO_LINES, MOLNIYA_LINES,
+        "\"1 90005U 24001A   24001.50000000  .00000000  00000-0  00000+0 0  9992\",\n"
+        "\"2 90005  55.0000 200.0000 0100000  30.0000 330.0000  2.00562000    14\"",
+        "\"1 90002U 24001A   24001.50000000  .00000000  00000-0  10000-4 0  9995\",\n"
+        "\"2 90002  98.2000  15.0000 0010000  90.0000 270.0000 14.57000000    15\""};
+    const char *parts[N_PARTS];
+    memcpy(parts, SOUND, sizeof parts);
+    parts[PART_TIME] = "[time]\nstart = 2024-01-02T00:00:00Z\nduration_s = 86400\nstep_s = 97\n";
+    for (size_t k = 0; k < COUNT_OF(ORBITS); k++) {
+        char orbit[1024];
+        snprintf(orbit, sizeof orbit, "[orbit]\ntle_lines = [%s]\n", ORBITS[k]);
+        glint_scenario *s = read_with(parts, PART_ORBIT, orbit);
+        glint_curve *curve;
+        glint_ephemeris *e;
+        const glint_row *rows;
+        const glint_ephemeris_row *places;
+        size_t n, m, count = 0;
+        ck_assert_int_eq(glint_curve_open(s, 1, &curve, NULL), GLINT_OK);
+        ck_assert_int_eq(glint_ephemeris_open(s, 1, &e, NULL), GLINT_OK);
+        ck_assert_int_eq(glint_curve_next(curve, &rows, &n, NULL), GLINT_OK);
+        ck_assert_int_eq(glint_ephemeris_next(e, &places, &m, NULL), GLINT_OK);
+        for (size_t i = 0; i < n && i < m; i++, count++) {
+            /* the light time's first guess differs, and with it the rounding of the time of
+             * emission and of angles of up to 100 rad: 3e-14 rad, times 42 000 km */
+            assert_near(rows[i].range_m, places[i].range_m, 4e-6);
+            assert_near(rows[i].azimuth_rad, places[i].azimuth_rad, 1e-11);
+            assert_near(rows[i].elevation_rad, places[i].elevation_rad, 1e-12);
+            assert_near(rows[i].phase_angle_rad, places[i].phase_angle_rad, 1e-12);
+            assert_near(rows[i].sunlit_fraction, places[i].sunlit_fraction, 1e-10);
+            assert_near(rows[i].sun_elevation_rad, places[i].sun_elevation_rad, 1e-14);
+        }
+        ck_assert_uint_gt(count, 500);
+        glint_curve_close(curve);
+        glint_ephemeris_close(e);
+        glint_scenario_free(s);
+    }
+}
+END_TEST
+
 START_TEST(test_ephemeris_refuses_given_directions)
 {
     glint_scenario *s = read_with(GIVEN, PART_TOP, GIVEN[PART_TOP]);
@@ -397,6 +440,7 @@ int main(void)
     tcase_add_test(tc, test_ephemeris_beta_is_the_declination_over_the_equator);
     tcase_add_test(tc, test_ephemeris_has_the_columns_that_the_scenario_has);
     tcase_add_test(tc, test_ephemeris_tells_the_angles_of_hinges);
+    tcase_add_test(tc, test_ephemeris_agrees_with_light_curves);
     tcase_add_test(tc, test_ephemeris_refuses_given_directions);
     suite_add_tcase(suite, tc);
     return run_suite(suite);

@@ -1,6 +1,8 @@
 /* The vectorisable exp, log and angle against the C library's long double functions. */
 #include "base/constants.h"
+#include "base/fasttrig.h"
 #include "brdf/fastmath.h"
+#include "lightcurve/sky.h"
 #include "testing.h"
 
 #include <float.h>
@@ -12,6 +14,77 @@ static double ulps(double got, long double want)
     const long double ulp = ldexpl(1.0L, exponent - (DBL_MANT_DIG - 1));
     return (double)(fabsl((long double)got - want) / ulp);
 }
+
+/* |got - want| in ulp, or in 1e-16 where that is more. */
+static void assert_trig(double x)
+{
+    double s, c;
+    fast_sin_cos(x, &s, &c);
+    const long double sine = sinl((long double)x), cosine = cosl((long double)x);
+    ck_assert_msg(fabsl((long double)s - sine) <= 1e-16L || ulps(s, sine) <= 1.5,
+                  "sin(%.17g) is off by %g ulp", x, ulps(s, sine));
+    ck_assert_msg(fabsl((long double)c - cosine) <= 1e-16L || ulps(c, cosine) <= 1.5,
+                  "cos(%.17g) is off by %g ulp", x, ulps(c, cosine));
+}
+
+START_TEST(test_fast_sin_cos_within_stated_error)
+{
+    for (double x = -20; x < 20; x += 0.000317)
+        assert_trig(x);
+    for (double x = 1e-300; x < 1e300; x *= 1.37) {
+        assert_trig(x);
+        assert_trig(-x);
+    }
+    for (int k = -300000; k < 300000; k += 7) { /* next to the edges of quadrants and octants */
+        assert_trig(0.25 * PI * k);
+        assert_trig(nextafter(0.25 * PI * k, 1e9));
+    }
+    double s, c;
+    fast_sin_cos(0, &s, &c);
+    assert_near(s, 0, 0);
+    assert_near(c, 1, 0);
+    const double wrong[] = {(double)NAN, HUGE_VAL, -HUGE_VAL};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        fast_sin_cos(wrong[k], &s, &c);
+        ck_assert(isnan(s) && isnan(c));
+    }
+}
+END_TEST
+
+START_TEST(test_turn_sin_cos_turns)
+{
+    for (double x = -4; x < 4; x += 0.013)
+        for (double turn = -1e-3; turn <= 1e-3; turn += 1.7e-4) {
+            double s = sin(x), c = cos(x);
+            turn_sin_cos(turn, &s, &c);
+            /* the angle's rounding, twice that of the numbers */
+            assert_near(s, (double)sinl((long double)x + (long double)turn), 3e-16);
+            assert_near(c, (double)cosl((long double)x + (long double)turn), 3e-16);
+        }
+}
+END_TEST
+
+START_TEST(test_sky_angle_is_that_of_atan2)
+{
+    for (double x = -1; x <= 1; x += 0.0123)
+        for (double y = -1; y <= 1; y += 0.0117)
+            assert_near(sky_angle(y, x), (double)atan2l((long double)y, (long double)x), 1.6e-15);
+    for (double y = 1e-300; y < 1e-3; y *= 13) {
+        assert_rel(sky_angle(y, 1), y, 1e-6); /* y - y^3/3 */
+        assert_rel(sky_angle(-y, 1), -y, 1e-6);
+        assert_near(sky_angle(y, -1), PI - y, 1e-9);
+        assert_near(sky_angle(1, y), 0.5 * PI - y, 1e-9);
+    }
+    assert_near(sky_angle(0, 0), 0, 0);
+    assert_near(sky_angle(0, -1), PI, 0);
+    assert_near(sky_azimuth(0, 0), 0, 0);
+    assert_near(sky_azimuth(-1e-300, 1), 0, 0); /* not a full turn */
+    assert_near(sky_azimuth(-1, 0), 1.5 * PI, 1e-15);
+    assert_near(sky_azimuth(1, 0), 0.5 * PI, 4e-16);
+    assert_near(sky_elevation(0, 0, 1), 0.5 * PI, 4e-16);
+    assert_near(sky_elevation(3, 4, -5), -0.25 * PI, 4e-16);
+}
+END_TEST
 
 START_TEST(test_fast_exp_within_stated_ulp)
 {
@@ -111,6 +184,8 @@ int main(void)
 {
     Suite *suite = suite_create("fastmath");
     TCase *tests = tcase_create("fastmath");
+    tcase_add_test(tests, test_fast_sin_cos_within_stated_error);
+    tcase_add_test(tests, test_turn_sin_cos_turns);
     tcase_add_test(tests, test_fast_exp_within_stated_ulp);
     tcase_add_test(tests, test_fast_exp_tiny_argument_keeps_digits);
     tcase_add_test(tests, test_fast_exp_far_below_zero_is_zero);
@@ -119,6 +194,7 @@ int main(void)
     tcase_add_test(tests, test_fast_log_1m_small_complement_keeps_digits);
     tcase_add_test(tests, test_fast_log_zero_is_finite_and_low);
     tcase_add_test(tests, test_fast_angle_within_stated_ulp);
+    tcase_add_test(tests, test_sky_angle_is_that_of_atan2);
     suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

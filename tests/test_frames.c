@@ -406,6 +406,42 @@ START_TEST(test_frames_grid_is_chosen_by_step_alone)
 END_TEST
 
 /* One grid used for another run must not keep what belonged to the first. */
+/* A tile gives the bits that its moments give alone: within some minutes, across the nodes of the
+ * grid, outside what it holds, and where it is not used at all; with polar motion and without. */
+START_TEST(test_frames_of_a_tile_are_those_of_its_moments)
+{
+    static const struct {
+        double from_s, step_s;
+        int n;
+    } CASES[] = {{1000, 1, 32}, {1000, 0.01, 7},   {20000, 100, 32}, {43000, 60, 31},
+                 {0, 3600, 32}, {86000, 3000, 32}, {-9e5, 1, 3},     {50, 40000, 32}};
+    const utc_time start = {2025, 7, 25, 3, 4, 5.6};
+    run_clock clock;
+    run_clock_start(&start, 2e6, 0.1, &clock);
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++)
+        for (int moves = 0; moves < 2; moves++) {
+            const earth_orientation orientation = {moves * 1e-6, moves * 2e-6};
+            frame_grid *grid = NULL;
+            ck_assert_int_eq(
+                frame_grid_prepare(&clock, &orientation, 0, 1e5, CASES[c].step_s, &grid, NULL),
+                GLINT_OK);
+            double t_s[FRAME_LANES];
+            frame_set tile[FRAME_LANES], alone;
+            memset(tile, 0, sizeof tile);
+            for (int k = 0; k < CASES[c].n; k++)
+                t_s[k] = CASES[c].from_s + k * CASES[c].step_s;
+            frame_grid_fill(grid, t_s, CASES[c].n, FRAMES_TEME | FRAMES_SUN, tile);
+            for (int k = 0; k < CASES[c].n; k++) {
+                memset(&alone, 0, sizeof alone);
+                frame_grid_at(grid, t_s[k], FRAMES_TEME | FRAMES_SUN, &alone);
+                ck_assert_msg(memcmp(&alone, &tile[k], sizeof alone) == 0, "case %zu, moment %d", c,
+                              k);
+            }
+            frame_grid_free(grid);
+        }
+}
+END_TEST
+
 START_TEST(test_frames_grid_is_reusable_for_another_run)
 {
     const run_clock first = clock_from("2025-06-07T08:09:10Z", 1e5, 0.0);
@@ -445,5 +481,6 @@ int main(void)
     tcase_add_test(tcase, test_frames_grid_does_not_depend_on_blocks);
     tcase_add_test(tcase, test_frames_grid_is_chosen_by_step_alone);
     tcase_add_test(tcase, test_frames_grid_is_reusable_for_another_run);
+    tcase_add_test(tcase, test_frames_of_a_tile_are_those_of_its_moments);
     return run_suite(suite);
 }

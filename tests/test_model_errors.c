@@ -8,10 +8,14 @@
 START_TEST(test_scenario_satellite_wrong_is_refused)
 {
     static const wrong_text all[] = {
-        {PART_SATELLITE, "[satellite]\nself_shadows = @\"interpolated\"\n", "not built yet",
-         "expected \"exact\" or \"none\"", 0},
-        {PART_SATELLITE, "[satellite]\nself_shadows = @\"rays\"\n", "not built yet",
-         "expected \"exact\" or \"none\"", 0},
+        {PART_SATELLITE, "[satellite]\nshadow_step_deg = @2\n", "\"interpolated\" only",
+         "or no shadow_step_deg", 0},
+        {PART_SATELLITE, "[satellite]\nself_shadows = \"interpolated\"\nshadow_step_deg = @0\n",
+         "0", "0.001", 0},
+        {PART_SATELLITE, "[satellite]\nrays_per_facet = @16\n", "\"rays\" only",
+         "or no rays_per_facet", 0},
+        {PART_SATELLITE, "[satellite]\nself_shadows = \"rays\"\nrays_per_facet = @0\n", "0",
+         "65536", 0},
         {PART_SATELLITE, "[satellite]\nself_shadows = @false\n", "false", "a string", 0},
         {PART_SATELLITE, "[satellite]\nself_shadows = @\"some\"\n", "\"some\"",
          "exact, none, interpolated, rays", 0},

@@ -297,8 +297,9 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The summary of a run against all its rows. */
-static void check_summary(const glint_scenario *s, double step_s)
+/* The summary of a run against all its rows. all_lit_s: its span where all rows are sunlit and up;
+ * 0: they are not, or there is no time. */
+static void check_summary(const glint_scenario *s, double step_s, double all_lit_s)
 {
     glint_curve *curve = open_curve(s);
     glint_summary got;
@@ -309,13 +310,19 @@ static void check_summary(const glint_scenario *s, double step_s)
     curve = open_curve(s);
     enum { MOST = 4096 };
     static double mags[MOST];
-    size_t n, bright = 0, all = 0, sunlit = 0, visible = 0, b6 = 0, b7 = 0;
+    size_t n, bright = 0, all = 0, b6 = 0, b7 = 0;
+    double sunlit_s = 0, visible_s = 0;
+    const double last_s = step_s * (double)(glint_curve_length(curve) - 1);
     const glint_row *rows;
     double brightest_t_s = 0, least = INFINITY;
     while (glint_curve_next(curve, &rows, &n, &error) == GLINT_OK && n > 0)
         for (size_t k = 0; k < n; k++, all++) {
-            sunlit += rows[k].sunlit_fraction > 0;
-            visible += rows[k].sunlit_fraction > 0 && !(rows[k].flags & GLINT_BELOW_HORIZON);
+            const bool at_end = !(rows[k].t_s > 0 && rows[k].t_s < last_s);
+            const double stands_for_s = at_end ? 0.5 * step_s : step_s;
+            const bool sunlit = rows[k].sunlit_fraction > 0;
+            const bool visible = sunlit && !(rows[k].flags & GLINT_BELOW_HORIZON);
+            sunlit_s += sunlit ? stands_for_s : 0;
+            visible_s += visible ? stands_for_s : 0;
             if (!(rows[k].flux_ratio[0] > 0)) continue;
             const double mag = rows[k].magnitude[0];
             ck_assert_uint_lt(bright, MOST);
@@ -333,8 +340,9 @@ static void check_summary(const glint_scenario *s, double step_s)
     assert_near(got.magnitude_median, median, 0.001); /* mag, as promised */
     assert_near(got.percent_brighter_6, 100.0 * (double)b6 / (double)bright, 1e-12);
     assert_near(got.percent_brighter_7, 100.0 * (double)b7 / (double)bright, 1e-12);
-    assert_near(got.sunlit_s, (double)sunlit * step_s, 1e-9);
-    assert_near(got.visible_s, (double)visible * step_s, 1e-9);
+    assert_near(got.sunlit_s, sunlit_s, 1e-9);
+    assert_near(got.visible_s, visible_s, 1e-9);
+    if (all_lit_s > 0) assert_near(got.visible_s, all_lit_s, 1e-9);
     assert_near(got.brightest_t_s, brightest_t_s, 0);
     ck_assert_str_eq(got.band, glint_curve_band(curve));
     ck_assert_int_eq(got.has_utc, step_s > 0);
@@ -345,7 +353,7 @@ START_TEST(test_output_summary_of_a_pass)
 {
     const char *const set[] = {"observer.min_elevation_deg=10"};
     glint_scenario *s = read_sound_set(TEST_DATA_DIR "/endtoend/iss-vienna.toml", set, 1);
-    check_summary(s, 5);
+    check_summary(s, 5, 0);
     glint_scenario_free(s);
 }
 END_TEST
@@ -364,9 +372,22 @@ START_TEST(test_output_summary_median_of_few_rows)
         snprintf(content, sizeof content,
                  "[geometry]\nsweep = { phase_deg = %s, plane = \"xz\" }\n", phases[k]);
         glint_scenario *s = read_with(parts, PART_TIME, content);
-        check_summary(s, 0);
+        check_summary(s, 0, 0);
         glint_scenario_free(s);
     }
+}
+END_TEST
+
+/* Seven rows in a minute are a minute of light, and three of them 20 s. */
+START_TEST(test_output_summary_times_do_not_exceed_the_span)
+{
+    glint_scenario *s = read_with(SOUND, PART_TOP, "");
+    check_summary(s, 10, 60);
+    glint_scenario_free(s);
+    s = read_with(SOUND, PART_TIME,
+                  "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 27\nstep_s = 10\n");
+    check_summary(s, 10, 20);
+    glint_scenario_free(s);
 }
 END_TEST
 
@@ -622,6 +643,7 @@ static Suite *output_suite(void)
     tcase_add_checked_fixture(summary, folder_make, folder_remove);
     tcase_add_test(summary, test_output_summary_of_a_pass);
     tcase_add_test(summary, test_output_summary_median_of_few_rows);
+    tcase_add_test(summary, test_output_summary_times_do_not_exceed_the_span);
     tcase_add_test(summary, test_output_summary_without_a_bright_row);
     suite_add_tcase(suite, summary);
     TCase *files = tcase_create("files");

@@ -26,6 +26,18 @@ static const char GEO_ORBIT[] =
     "[orbit]\ntle_lines = [\n"
     "\"1 41866U 16071A   24001.50000000 -.00000100  00000-0  00000+0 0  9993\",\n"
     "\"2 41866   0.0300  90.0000 0001000 100.0000 262.0000  1.00271000 26000\"]\n";
+static const char MOLNIYA_ORBIT[] =
+    "[orbit]\ntle_lines = [\n"
+    "\"1 99901U 24001A   24001.50000000  .00000010  00000-0  00000+0 0  9997\",\n"
+    "\"2 99901  63.4000 120.0000 7400000 270.0000  10.0000  2.00600000    16\"]\n";
+static const char GNSS_ORBIT[] =
+    "[orbit]\ntle_lines = [\n"
+    "\"1 90005U 24001A   24001.50000000  .00000000  00000-0  00000+0 0  9992\",\n"
+    "\"2 90005  55.0000 200.0000 0100000  30.0000 330.0000  2.00562000    14\"]\n";
+static const char RETROGRADE_ORBIT[] =
+    "[orbit]\ntle_lines = [\n"
+    "\"1 90002U 24001A   24001.50000000  .00000000  00000-0  10000-4 0  9995\",\n"
+    "\"2 90002  98.2000  15.0000 0010000  90.0000 270.0000 14.57000000    15\"]\n";
 static const char PLAIN[] = "[corrections]\nlight_time = false\n";
 
 static glint_scenario *read_orbit_only(const char *time, const char *observer,
@@ -164,6 +176,46 @@ START_TEST(test_passes_of_a_geostationary_satellite_are_all_or_nothing)
 }
 END_TEST
 
+/* At the poles every direction is south, or north: azimuths count from the meridian of the given
+ * longitude. A year of a satellite that passes over them at each turn, of one that never comes up,
+ * and of one that stays high for hours. */
+START_TEST(test_passes_over_the_poles)
+{
+    static const struct {
+        double latitude_deg;
+        const char *orbit;
+        size_t least, most;
+    } CASES[] = {{90, RETROGRADE_ORBIT, 5300, 5340}, /* 14.57 turns a day, 365 days */
+                 {-90, RETROGRADE_ORBIT, 5300, 5340},
+                 {90, "[orbit]\ncircular = { geostationary_longitude_deg = 19.2 }\n", 0, 0},
+                 {90,
+                  "[orbit]\nkepler = { semi_major_axis_km = 26560, eccentricity = 0.74, "
+                  "inclination_deg = 63.4, raan_deg = 120, argument_of_perigee_deg = 270, "
+                  "mean_anomaly_deg = 180, j2 = false }\n",
+                  730, 735}, /* 2.006 turns a day, 366 less 1 */
+                 {-90,
+                  "[orbit]\nkepler = { semi_major_axis_km = 26560, eccentricity = 0.74, "
+                  "inclination_deg = 63.4, raan_deg = 120, argument_of_perigee_deg = 270, "
+                  "mean_anomaly_deg = 180, j2 = false }\n",
+                  0, 735}};
+    static const char YEAR[] = "[time]\nstart = 2024-01-01T12:00:00Z\nduration_s = 31536000\n"
+                               "step_s = 3600\n";
+    for (size_t k = 0; k < COUNT_OF(CASES); k++) {
+        char observer[128];
+        snprintf(observer, sizeof observer,
+                 "[observer]\nlatitude_deg = %g\nlongitude_deg = 0\nmin_elevation_deg = 5\n",
+                 CASES[k].latitude_deg);
+        glint_scenario *s = read_orbit_only(YEAR, observer, CASES[k].orbit, "");
+        glint_passes *passes = find(s, 0, 2);
+        const size_t n = glint_passes_count(passes);
+        ck_assert_msg(n >= CASES[k].least && n <= CASES[k].most, "case %zu: %zu passes", k, n);
+        check_order(passes, 31536000);
+        glint_passes_free(passes);
+        glint_scenario_free(s);
+    }
+}
+END_TEST
+
 /* A limit of elevation just below the highest point of a pass leaves a pass of some seconds; just
  * above it, none. */
 START_TEST(test_passes_find_grazing_ones)
@@ -205,7 +257,11 @@ END_TEST
 START_TEST(test_passes_agree_with_rows)
 {
     static const char *const ORBITS[] = {
-        ISS_ORBIT, GEO_ORBIT,
+        ISS_ORBIT,
+        GEO_ORBIT,
+        MOLNIYA_ORBIT,
+        GNSS_ORBIT,
+        RETROGRADE_ORBIT,
         "[orbit]\nkepler = { semi_major_axis_km = 26560, eccentricity = 0.74, inclination_deg = "
         "63.4, raan_deg = 120, argument_of_perigee_deg = 270, mean_anomaly_deg = 10 }\n",
         "[orbit]\nkepler = { semi_major_axis_km = 12000, eccentricity = 0.45, inclination_deg = "
@@ -316,7 +372,7 @@ static void check_duration(const glint_scenario *s, const glint_pass_event *flas
         1e-4; /* rad: its way in half a minute, and what the satellite's adds */
     glint_ephemeris *e;
     const glint_ephemeris_row *rows;
-    double peak[3], now[3];
+    double peak[3] = {0}, now[3];
     size_t n;
     ck_assert_int_eq(glint_ephemeris_open(s, 1, &e, NULL), GLINT_OK);
     ck_assert_int_eq(glint_ephemeris_next(e, &rows, &n, NULL), GLINT_OK);
@@ -431,37 +487,44 @@ static double mirror_angle_at(const glint_ephemeris_row *row, const frame_grid *
     return angle3(mirrored, observer);
 }
 
-/* The box flashes as often as looking at every hundredth of a second says, at least so often. */
-static void check_flashes(const char *laws, size_t least)
+/* Flashes of a box by its mirror angles at every row: how many begin. */
+static size_t count_among_rows(const glint_scenario *s, double limit)
 {
-    static const double LIMIT = 3 * DEG;
     static const double NORMALS[6][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                          {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    const char *parts[N_PARTS];
-    memcpy(parts, SOUND, sizeof parts);
-    parts[PART_TIME] = "[time]\nstart = 2025-07-25T20:33:00Z\nduration_s = 400\nstep_s = 0.01\n";
-    parts[PART_ATTITUDE] = laws;
-    parts[PART_MATERIAL] = "[materials.white]\nbrdf = \"ward-gmd\"\nrho_d = 0.1\nrho_s = 0.5\n"
-                           "alpha_x = 0.05\nalpha_y = 0.05\n";
-    const marked_text m = with_part(parts, PART_TOP, "");
-    glint_scenario *s = read_sound(write_file("scenario.toml", m.text));
     frame_grid *grid = NULL;
     const earth_orientation still = {0, 0};
-    ck_assert_int_eq(frame_grid_prepare(&s->clock, &still, 0, 400, 1, &grid, NULL), GLINT_OK);
+    ck_assert_int_eq(frame_grid_prepare(&s->clock, &still, 0, s->span_s, 1, &grid, NULL), GLINT_OK);
     glint_ephemeris *e;
     ck_assert_int_eq(glint_ephemeris_open(s, 1, &e, NULL), GLINT_OK);
     const glint_ephemeris_row *rows;
-    size_t n, want = 0, got = 0;
+    size_t n, count = 0;
     bool inside[6] = {false};
     while (glint_ephemeris_next(e, &rows, &n, NULL) == GLINT_OK && n > 0)
         for (size_t k = 0; k < n; k++)
             for (int i = 0; i < 6; i++) {
-                const bool now = mirror_angle_at(&rows[k], grid, NORMALS[i]) <= LIMIT;
-                want += now && !inside[i];
+                const bool now = mirror_angle_at(&rows[k], grid, NORMALS[i]) <= limit;
+                count += now && !inside[i];
                 inside[i] = now;
             }
     glint_ephemeris_close(e);
+    frame_grid_free(grid);
+    return count;
+}
+
+/* The box flashes as often as looking at every hundredth of a second says, at least so often. */
+static void check_flashes(const char *laws, size_t least)
+{
+    static const double LIMIT = 3 * DEG;
+    const char *parts[N_PARTS];
+    memcpy(parts, SOUND, sizeof parts);
+    parts[PART_TIME] = "[time]\nstart = 2025-07-25T20:33:00Z\nduration_s = 400\nstep_s = 0.01\n";
+    parts[PART_MATERIAL] = "[materials.white]\nbrdf = \"ward-gmd\"\nrho_d = 0.1\nrho_s = 0.5\n"
+                           "alpha_x = 0.05\nalpha_y = 0.05\n";
+    glint_scenario *s = read_with(parts, PART_ATTITUDE, laws);
+    const size_t want = count_among_rows(s, LIMIT);
     glint_passes *passes = find(s, LIMIT, 1);
+    size_t got = 0;
     for (size_t k = 0; k < glint_passes_count(passes); k++)
         for (size_t i = 0; i < glint_passes_get(passes, k)->n_events; i++)
             got += glint_passes_get(passes, k)->events[i].kind == GLINT_FLASH;
@@ -469,15 +532,17 @@ static void check_flashes(const char *laws, size_t least)
     /* one that dips below the limit for less than 0.01 s may be seen by the search alone */
     ck_assert_msg(got >= want && got <= want + 1, "%zu flashes, %zu among samples", got, want);
     glint_passes_free(passes);
-    frame_grid_free(grid);
     glint_scenario_free(s);
 }
 
-START_TEST(test_passes_find_all_flashes_of_a_spinning_box)
+START_TEST(test_passes_find_all_flashes_of_a_turning_box)
 {
     check_flashes("[attitude]\nlaw = \"spin\"\nbody_axis = [1, 2, 3]\npole = { ra_deg = 40, "
                   "dec_deg = 25 }\nrate_deg_s = 47\n",
                   6);
+    check_flashes("[attitude]\nlaw = \"torque-free\"\ninertia_kg_m2 = [3, 4, 5]\n"
+                  "rates_deg_s = [40, 20, 15]\nquaternion_wxyz = [0.6, 0, 0.8, 0]\n",
+                  4);
 }
 END_TEST
 
@@ -648,11 +713,12 @@ int main(void)
     tcase_set_timeout(tc, 120);
     tcase_add_test(tc, test_passes_agree_with_another_program);
     tcase_add_test(tc, test_passes_of_a_geostationary_satellite_are_all_or_nothing);
+    tcase_add_test(tc, test_passes_over_the_poles);
     tcase_add_test(tc, test_passes_find_grazing_ones);
     tcase_add_test(tc, test_passes_agree_with_rows);
     tcase_add_test(tc, test_passes_meet_the_shadow_of_the_reference);
     tcase_add_test(tc, test_passes_find_a_flash_where_it_was_put);
-    tcase_add_test(tc, test_passes_find_all_flashes_of_a_spinning_box);
+    tcase_add_test(tc, test_passes_find_all_flashes_of_a_turning_box);
     tcase_add_test(tc, test_passes_find_all_flashes_of_fast_slews);
     tcase_add_test(tc, test_passes_brightest_is_brighter_than_any_row);
     tcase_add_test(tc, test_passes_are_the_same_on_any_number_of_threads);

@@ -334,9 +334,9 @@ START_TEST(test_photometry_angular_rate_is_that_of_the_directions)
     /* under J2 the velocity is that of the ellipse, not of its drift: 1e-3 off */
     parts[PART_ORBIT] = "[orbit]\ncircular = { height_km = 780, inclination_deg = 98.6, "
                         "raan_deg = 80, argument_of_latitude_deg = 132, j2 = false }\n";
-    glint_scenario *s = read_with(parts, PART_TIME,
-                                  "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 60\n"
-                                  "step_s = 0.5\n");
+    parts[PART_TIME] = "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 60\nstep_s = 0.5\n"
+                       "exposure_s = 0.001\n";
+    glint_scenario *s = read_with(parts, PART_SETTINGS, SCOPE);
     run_rows rows = run(s, 1);
     for (size_t k = 1; k + 1 < rows.n; k++) {
         const glint_row *a = &rows.rows[k - 1], *b = &rows.rows[k + 1];

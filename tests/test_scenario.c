@@ -113,16 +113,16 @@ START_TEST(test_scenario_observer_keys_and_defaults)
     glint_scenario *s = read_with(SOUND, PART_OBSERVER,
                                   "[observer]\nname = \"Vienna\"\nlatitude_deg = -48.25\n"
                                   "longitude_deg = 16\nheight_m = 200\nmin_elevation_deg = 10\n");
-    ck_assert_str_eq(s->site_name, "Vienna");
-    assert_rel(s->site.latitude, -48.25 * PI / 180, rounding);
-    assert_rel(s->site.longitude, 16 * PI / 180, rounding);
-    assert_near(s->site.height_m, 200, 0);
-    assert_rel(s->min_elevation, 10 * PI / 180, rounding);
+    ck_assert_str_eq(s->observers[0].name, "Vienna");
+    assert_rel(s->observers[0].site.latitude, -48.25 * PI / 180, rounding);
+    assert_rel(s->observers[0].site.longitude, 16 * PI / 180, rounding);
+    assert_near(s->observers[0].site.height_m, 200, 0);
+    assert_rel(s->observers[0].horizon.least, 10 * PI / 180, rounding);
     glint_scenario_free(s);
     s = read_with(SOUND, PART_OBSERVER, "[observer]\nlatitude_deg = 0\nlongitude_deg = -360\n");
-    ck_assert_str_eq(s->site_name, "");
-    assert_near(s->site.height_m, 0, 0);
-    assert_near(s->min_elevation, 0, 0);
+    ck_assert_str_eq(s->observers[0].name, "");
+    assert_near(s->observers[0].site.height_m, 0, 0);
+    assert_near(s->observers[0].horizon.least, 0, 0);
     glint_scenario_free(s);
 }
 END_TEST
@@ -561,7 +561,7 @@ START_TEST(test_scenario_overrides_of_every_kind)
     ck_assert_int_eq(s->n_steps, 41);
     ck_assert_str_eq(s->title, "set");
     ck_assert_int_eq(s->n_bands, 2);
-    assert_rel(s->site.longitude, 2 * PI / 180, rounding);
+    assert_rel(s->observers[0].site.longitude, 2 * PI / 180, rounding);
     assert_rel(s->orbit.kepler.raan, PI / 2, rounding);
     assert_rel(s->orbit.kepler.inclination, 98.6 * PI / 180, rounding);
     ck_assert_str_eq(s->satellite.components[0].name, "body");

@@ -46,6 +46,79 @@ START_TEST(test_scenario_time_wrong_is_refused)
 }
 END_TEST
 
+#define SITE "[observer]\nlatitude_deg = 0\nlongitude_deg = 0\n"
+
+START_TEST(test_scenario_horizon_wrong_is_refused)
+{
+    static const wrong_text all[] = {
+        {PART_OBSERVER, SITE "horizon_deg = @[]\n", "0 points", "1 to", 0},
+        {PART_OBSERVER, SITE "horizon_deg = [[0, 1], @[1, 2, 3]]\n", "horizon_deg", "2 numbers", 0},
+        {PART_OBSERVER, SITE "horizon_deg = [@[400, 1]]\n", "400", "-360 to 360", 0},
+        {PART_OBSERVER, SITE "horizon_deg = [@[0, 91]]\n", "91", "-90 to 90", 0},
+        {PART_OBSERVER, SITE "horizon_deg = [[10, 1], [0, 0], @[370, 2]]\n", "370", NULL, 0},
+        {PART_OBSERVER, SITE "horizon_deg = [[10, 1], [0, 0], @[-350, 2]]\n",
+         "another elevation already", "one elevation", 0},
+        {PART_OBSERVER, SITE "horizon = \"a.csv\"\nhorizon_deg = @[[0, 1]]\n",
+         "both 'horizon' and 'horizon_deg'", "one of them", 2},
+        {PART_OBSERVER, SITE "horizon = @\"absent.csv\"\n", "absent.csv", NULL, 0},
+        {PART_OBSERVER, SITE "refraction = @1\n", "'refraction' is", "true, false, or a table", 0},
+        {PART_OBSERVER, SITE "refraction = { pressure_hPa = @-1 }\n", "-1", "between 0 and 1200",
+         0},
+        {PART_OBSERVER, SITE "refraction = { @pressure = 1 }\n", "unknown key 'pressure'",
+         "pressure_hPa", 0},
+    };
+    ASSERT_ALL_WRONG(SOUND, all);
+}
+END_TEST
+
+/* Several observers: their names tell their rows apart. */
+START_TEST(test_scenario_observers_without_different_names_are_refused)
+{
+#define SEVERAL(a, b)                                                                              \
+    "[[observer]]\n" a "latitude_deg = 0\nlongitude_deg = 0\n" b                                   \
+    "latitude_deg = 1\nlongitude_deg = 0\n"
+    static const wrong_text all[] = {
+        {PART_OBSERVER, SEVERAL("name = \"a\"\n", "@[[observer]]\n"), "has no name", "a name", 0},
+        {PART_OBSERVER, SEVERAL("name = \"a\"\n", "@[[observer]]\nname = \"a\"\n"), "named 'a'",
+         "different names", 0},
+        {PART_OBSERVER, SEVERAL("name = \"a\"\n", "@[[observer]]\nname = 'a\"b'\n"),
+         "cannot stand in a table", "without double quotes", 0},
+        {PART_OBSERVER, SEVERAL("name = \"a\"\n", "@[[observer]]\nname = \"a\\tb\"\n"),
+         "cannot stand in a table", "control characters", 0},
+    };
+    ASSERT_ALL_WRONG(SOUND, all);
+#undef SEVERAL
+}
+END_TEST
+
+/* What other tables want of an observer that it does not have. */
+START_TEST(test_scenario_observer_wanted_of_it_is_refused)
+{
+    static const char *const GEO = "[observer.satellite]\ncircular = { "
+                                   "geostationary_longitude_deg = 0 }\n";
+    const char *parts[N_PARTS];
+    memcpy(parts, SOUND, sizeof parts);
+    parts[PART_OBSERVER] = GEO;
+    static const wrong_text of_satellites[] = {
+        {PART_SETTINGS, "[output]\nrows = @\"dark-site\"\n", "no observer is a site", "visible", 0},
+    };
+    ASSERT_ALL_WRONG(parts, of_satellites);
+    parts[PART_OBSERVER] = "[observer.direction]\nframe = \"body\"\nvector = [0, 0, 1]\n";
+    const marked_text m = with_part(parts, PART_ATTITUDE,
+                                    "[attitude]\nlaw = \"point\"\naxis = [0, 0, 1]\nto = "
+                                    "\"observer\"\nsecond_axis = [1, 0, 0]\nsecond_to = "
+                                    "\"north\"\n");
+    const char *path = write_file("scenario.toml", m.text);
+    assert_refused_set(path, NULL, 0, path, 0, 0, "the attitude follows the observer",
+                       "one of them", 1);
+    parts[PART_OBSERVER] = GEO;
+    const marked_text x =
+        with_part(parts, PART_SETTINGS, "[photometry]\nextinction = { V = 0.1 }\n");
+    path = write_file("scenario.toml", x.text);
+    assert_refused_set(path, NULL, 0, path, 0, 0, "no observer is a site", "extinction = false", 1);
+}
+END_TEST
+
 START_TEST(test_scenario_observer_wrong_is_refused)
 {
     static const wrong_text all[] = {
@@ -68,9 +141,29 @@ START_TEST(test_scenario_observer_wrong_is_refused)
          "a string", 0},
         {PART_OBSERVER, "[observer]\n@latitude = 48\nlatitude_deg = 0\nlongitude_deg = 0\n",
          "unknown key 'latitude'", "did you mean 'latitude_deg'?", 0},
-        {PART_OBSERVER, "[observer]\n@satellite = { circular = {} }\n", "'satellite'",
-         "not built yet", 0},
-        {PART_OBSERVER, "[observer]\n@direction = [0, 0, 1]\n", "'direction'", "not built yet", 0},
+        {PART_OBSERVER, "[observer]\nsatellite = @{}\n", "[observer.satellite] has no source",
+         "exactly one of tle", 0},
+        {PART_OBSERVER, "[observer]\nsatellite = @[1]\n", "'satellite'", "a table", 0},
+        {PART_OBSERVER, "[observer]\ndirection = @[0, 0, 1]\n", "'direction'", "a table", 0},
+        {PART_OBSERVER,
+         "[observer]\nsatellite = { circular = { geostationary_longitude_deg = 0 } }\n"
+         "direction = @{ frame = \"gcrs\", vector = [0, 0, 1] }\n",
+         "both 'satellite' and 'direction'", "one of them", 0},
+        {PART_OBSERVER,
+         "[observer]\nlatitude_deg = @3\n"
+         "satellite = { circular = { geostationary_longitude_deg = 0 } }\n",
+         "'latitude_deg' stands beside 'satellite'", "one kind of observer", 0},
+        {PART_OBSERVER, "[observer]\ndirection = @{ vector = [0, 0, 1] }\n", "no 'frame'", NULL, 0},
+        {PART_OBSERVER, "[observer]\ndirection = @{ frame = \"gcrs\" }\n", "no 'vector'", NULL, 0},
+        {PART_OBSERVER,
+         "[observer]\ndirection = { frame = \"gcrs\", vector = @[0, 0, 1], ra_deg = 1, dec_deg = 2 "
+         "}\n",
+         "both 'vector' and 'ra_deg', 'dec_deg'", "one of them", 0},
+        {PART_OBSERVER, "[observer]\ndirection = { frame = @\"body\", ra_deg = 1, dec_deg = 2 }\n",
+         "no right ascension", "'vector'", 0},
+        {PART_OBSERVER,
+         "[observer]\ndirection = { frame = \"gcrs\", vector = [0, 0, 1], range_km = @1e6 }\n",
+         "1e+06", "between 1e-06 and", 0},
     };
     ASSERT_ALL_WRONG(SOUND, all);
 }
@@ -505,6 +598,9 @@ static Suite *scenario_errors_suite(void)
     tcase_add_checked_fixture(tables, folder_make, folder_remove);
     tcase_add_test(tables, test_scenario_time_wrong_is_refused);
     tcase_add_test(tables, test_scenario_observer_wrong_is_refused);
+    tcase_add_test(tables, test_scenario_horizon_wrong_is_refused);
+    tcase_add_test(tables, test_scenario_observers_without_different_names_are_refused);
+    tcase_add_test(tables, test_scenario_observer_wanted_of_it_is_refused);
     tcase_add_test(tables, test_scenario_orbit_wrong_is_refused);
     tcase_add_test(tables, test_scenario_orbit_perigee_below_the_ground_is_refused);
     tcase_add_test(tables, test_scenario_tle_file_without_the_wanted_set_is_refused);

@@ -20,7 +20,8 @@ for file in "${files[@]}"; do
     grep -q '^# What to look at' "$file" || fail "$name does not say what to look at"
     "$glint" check "$file" >/dev/null || fail "glint check $name"
     rows=$("$glint" run "$file" --quiet | grep -v '^#' | tail -n +2) || fail "glint run $name"
-    bright=$(cut -d, -f3 <<<"$rows" | grep -c .)
+    column=$("$glint" run "$file" --quiet | grep -v '^#' | head -n 1 | tr , '\n' | grep -n -m 1 '^mag_')
+    bright=$(cut -d, -f"${column%%:*}" <<<"$rows" | grep -c .)
     [ "$bright" -gt 10 ] || fail "$name has only $bright rows with a magnitude"
     ! grep -qi nan <<<"$rows" || fail "$name has a NaN"
     if grep -qE '^\[(\[expect|\[require|expect_table)' "$file"; then

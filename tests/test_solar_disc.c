@@ -35,28 +35,38 @@ static double sum_of(const bench *b, const double sun[3], const double observer[
     return x[0];
 }
 
-/* The mean of g over the disc by brute force: a square grid of points over it, its spacing `step`
- * in radii. */
+/* The mean of g over the disc by brute force: a square grid of n x n points. It covers the disc, or
+ * what lies within 12 widths of the lobe of the mirror direction, if that is smaller: past it
+ * Gaussian lobes are gone (exp(-72)). width: of the bisector, rad; HUGE_VAL for lobes with wings.
+ */
 static double brute(const brdf_material *m, const double sun[3], const double observer[3], double q,
-                    bool limb_darkened, int n_across)
+                    bool limb_darkened, double width, int n)
 {
-    double e1[3], e2[3], total = 0, weights = 0;
-    const double other[3] = {0.3, -0.7, 0.2}, step = 2.0 / n_across;
+    double e1[3], e2[3], total = 0;
+    const double other[3] = {0.3, -0.7, 0.2}, image[3] = {-observer[0], -observer[1], observer[2]};
     perp3(other, sun, e1);
     cross3(sun, e1, e2);
-    for (int a = 0; a < n_across; a++)
-        for (int b = 0; b < n_across; b++) {
-            const double x = -1 + (a + 0.5) * step, y = -1 + (b + 0.5) * step, s = x * x + y * y;
+    /* A tilt of the bisector is half of that of the source, at least. */
+    const double reach = 24 * width / tan(q), along = dot3(image, sun) * tan(q);
+    const double middle[2] = {dot3(image, e1) / along, dot3(image, e2) / along};
+    double lo[2], step[2];
+    for (int j = 0; j < 2; j++) {
+        lo[j] = fmin(fmax(middle[j] - reach, -1), 1);
+        step[j] = (fmax(fmin(middle[j] + reach, 1), -1) - lo[j]) / n;
+    }
+    for (int a = 0; a < n; a++)
+        for (int b = 0; b < n; b++) {
+            const double x = lo[0] + (a + 0.5) * step[0], y = lo[1] + (b + 0.5) * step[1];
+            const double s = x * x + y * y;
             if (s > 1) continue;
             double i[3];
             for (int j = 0; j < 3; j++)
                 i[j] = sun[j] + tan(q) * (x * e1[j] + y * e2[j]);
             unit3(i, i);
-            const double weight = limb_darkened ? 1 - 0.6 * (1 - sqrt(1 - s)) : 1;
-            weights += weight;
-            total += weight * brdf_material_eval(m, i, observer);
+            const double bright = limb_darkened ? (1 - 0.6 * (1 - sqrt(1 - s))) / 0.8 : 1;
+            total += bright * brdf_material_eval(m, i, observer);
         }
-    return total / weights;
+    return total * step[0] * step[1] / PI;
 }
 
 /* --- against brute force --- */
@@ -81,7 +91,8 @@ static void check_paint(const paint *p, double width, bool limb_darkened, int n_
     static const double WIDTHS[] = {0, 1, 2.5, 4}, RADII[] = {0.3, 0.45};
     static const double UP[3] = {0, 0, 1};
     bench *b = plate_of(p);
-    const double top = brute(&b->material, UP, UP, SUN_Q, limb_darkened, 200);
+    const double reach = strncmp(p->name, "ward", 4) ? HUGE_VAL : width;
+    const double top = brute(&b->material, UP, UP, SUN_Q, limb_darkened, reach, 200);
     int n = 0;
     for (int c = 0; c < 4; c++)
         for (int o = 0; o < 12; o++) {
@@ -92,7 +103,8 @@ static void check_paint(const paint *p, double width, bool limb_darkened, int n_
             double observer[3];
             offset_mirror(sun, tilt, azimuth + (o % 2) * PI / 2, observer);
             if (observer[2] < 0.05) continue;
-            const double want = brute(&b->material, sun, observer, SUN_Q, limb_darkened, n_across);
+            const double want =
+                brute(&b->material, sun, observer, SUN_Q, limb_darkened, reach, n_across);
             if (!(want > 1e-3 * top)) continue;
             const double got = sum_of(b, sun, observer, SUN_Q, limb_darkened);
             ck_assert_msg(got > 0, "%s: nothing at %g deg", p->name, INCIDENCE[c]);
@@ -115,8 +127,7 @@ START_TEST(test_solar_disc_blurs_gaussian_lobes_as_brute_force_does)
     for (int k = 0; k < 9; k++) {
         const double alpha = ALPHA[k];
         const paint p = {NAME[k % 3], {0, 0.5, alpha, alpha, NONE, NONE}};
-        const int n = alpha < 2e-4 ? 3000 : alpha < 2e-3 ? 1000 : alpha < 0.01 ? 400 : 160;
-        check_paint(&p, alpha / sqrt(2), _i == 1, n, 1e-3);
+        check_paint(&p, alpha / sqrt(2), _i == 1, 300, 1e-3);
     }
 }
 END_TEST
@@ -145,7 +156,7 @@ START_TEST(test_solar_disc_blurs_every_kind_of_lobe_as_brute_force_does)
     static const double WIDTH[] = {0.014, 0.035, 0.1, 0.007, 0.002, 0.03, 0.007, 0.07, 0.03,
                                    0.014, 0.02,  0.1, 0.3,   0.3,   0.3,  0.3,   0.3};
     const paint *p = &PAINTS[_i];
-    check_paint(p, WIDTH[_i], _i % 2, 400, 1e-3);
+    check_paint(p, WIDTH[_i], _i % 2, 300, 1e-3);
 }
 END_TEST
 

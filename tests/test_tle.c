@@ -147,6 +147,15 @@ START_TEST(test_tle_parse_keeps_every_decimal_of_the_epoch)
 }
 END_TEST
 
+/* On a day that ends in a leap second, half a day of an element set is 43 200 s, too. */
+START_TEST(test_tle_parse_counts_seconds_on_the_day_of_a_leap_second)
+{
+    const tle e = parse(with(iss1, 19, "16366.50000000"), iss2, false);
+    assert_near(e.epoch_jd[0], 2457753.5, 0.0); /* 31 December 2016, 0h */
+    assert_near(e.epoch_jd[1], 43200.0 / 86401.0, 1e-16);
+}
+END_TEST
+
 /* Alpha-5 numbers with their values, as Space-Track documents them. */
 static const struct {
     const char *text;
@@ -697,6 +706,7 @@ static TCase *value_tests(void)
     tcase_add_test(values, test_tle_parse_reads_years_from_1957_to_2056);
     tcase_add_test(values, test_tle_parse_counts_days_into_the_next_year);
     tcase_add_test(values, test_tle_parse_keeps_every_decimal_of_the_epoch);
+    tcase_add_test(values, test_tle_parse_counts_seconds_on_the_day_of_a_leap_second);
     tcase_add_loop_test(values, test_tle_number_read_decodes_alpha5, 0,
                         sizeof alpha5 / sizeof *alpha5);
     tcase_add_test(values, test_tle_number_read_refuses_what_is_no_number);

@@ -6,7 +6,6 @@
 
 #include <stdint.h>
 
-static const double origin[3] = {0, 0, 0};
 static const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, z_axis[3] = {0, 0, 1};
 
 enum { MAX_COMPONENTS = 8, MAX_MATERIALS = 4 };
@@ -134,13 +133,6 @@ static void random_direction(uint64_t *state, double out[3])
     const double z = 2.0 * random_number(state) - 1.0, a = TWO_PI * random_number(state);
     const double across = sqrt(1.0 - z * z);
     out[0] = across * cos(a), out[1] = across * sin(a), out[2] = z;
-}
-
-static void random_turn(uint64_t *state, double out[9])
-{
-    double axis[3];
-    random_direction(state, axis);
-    mat_turn(axis, TWO_PI * random_number(state), out);
 }
 
 /* ---------------------------------------------------------------- closed forms */
@@ -423,8 +415,7 @@ static scene *random_scene(uint64_t seed)
             memcpy(pose->body_component, turn[c][when], sizeof turn[c][when]);
             copy3(hinge[c], pose->origin_m);
             if (c == 0) continue;
-            const visibility_pose *above = pose - 0; /* set below */
-            above = when == 0 ? &s->components[c - 1].pose : &later[c - 1];
+            const visibility_pose *above = when == 0 ? &s->components[c - 1].pose : &later[c - 1];
             mat_mul(above->body_component, turn[c][when], pose->body_component);
             mat_vec(above->body_component, hinge[c], pose->origin_m);
             add3(pose->origin_m, above->origin_m, pose->origin_m);
@@ -560,6 +551,285 @@ START_TEST(test_visibility_intelsat901_agrees_with_published_sums)
 }
 END_TEST
 
+/* ---------------------------------------------------------------- touching and degenerate shapes
+ */
+
+/* Area that is lit and seen, weighted with both cosines: what a Lambert surface shines with. */
+static double shining_area(scene *s, const double sun[3], const double observer[3])
+{
+    double sum = 0;
+    look(s, sun, observer, 0);
+    for (int k = 0; k < s->model.n_facets; k++) {
+        const placed_facet f = place_facet(s, k);
+        sum += fraction(s, k) * f.area_m2 * fmax(0, dot3(f.normal, sun)) *
+               fmax(0, dot3(f.normal, observer));
+    }
+    return sum;
+}
+
+/* A pair of directions, at most 90 deg from each other. */
+static void random_pair(uint64_t *state, double sun[3], double observer[3])
+{
+    random_direction(state, sun);
+    random_direction(state, observer);
+    if (dot3(sun, observer) < 0) scale3(observer, -1, observer);
+}
+
+/* A cube in pieces that touch with whole faces, edges and corners shines as the cube does. */
+START_TEST(test_visibility_cube_in_pieces_shines_as_the_whole)
+{
+    enum { PIECES = 3 };
+    uint64_t state = 5;
+    scene *whole = scene_new(), *pieces = scene_new();
+    const double lo[3] = {0, 0, 0}, hi[3] = {1.5, 1.5, 1.5};
+    add_box(whole, 0, lo, hi);
+    for (int k = 0; k < PIECES * PIECES * PIECES; k++) {
+        const double at[3] = {0.5 * (k % 3), 0.5 * (k / 3 % 3), 0.5 * (k / 9)};
+        const double end[3] = {at[0] + 0.5, at[1] + 0.5, at[2] + 0.5};
+        add_box(pieces, 0, at, end);
+    }
+    scene_plan(whole, 1);
+    scene_plan(pieces, 1);
+    for (int trial = 0; trial < 200; trial++) {
+        double sun[3], observer[3];
+        random_pair(&state, sun, observer);
+        assert_near(shining_area(pieces, sun, observer), shining_area(whole, sun, observer), 1e-12);
+    }
+    scene_free(whole);
+    scene_free(pieces);
+}
+END_TEST
+
+/* Plates in one plane, side by side, over each other and crossed, cast no shadows on each other. */
+START_TEST(test_visibility_plates_in_one_plane_leave_each_other_alone)
+{
+    uint64_t state = 6;
+    scene *s = scene_new();
+    add_plate(s, 1, 1, 0, 0, 0);
+    add_plate(s, 1, 1, 1, 0, 0);
+    add_plate(s, 3, 0.2, 0.5, 0.1, 0);
+    add_plate(s, 1, 1, 0, 0, 0);
+    scene_plan(s, 1);
+    ck_assert(visibility_is_trivial(s->plan));
+    for (int trial = 0; trial < 50; trial++) {
+        double sun[3], observer[3];
+        random_pair(&state, sun, observer);
+        sun[2] = fabs(sun[2]), observer[2] = fabs(observer[2]);
+        look(s, sun, observer, 0);
+        for (int k = 0; k < 4; k++)
+            assert_near(fraction(s, k), 1.0, 0.0);
+    }
+    scene_free(s);
+}
+END_TEST
+
+/* What is inside a closed body is dark, and takes nothing from the body. */
+START_TEST(test_visibility_nested_bodies_show_the_outer_one)
+{
+    uint64_t state = 7;
+    scene *s = scene_new();
+    for (int k = 0; k < 4; k++) {
+        const double r = 1.0 - 0.2 * k, lo[3] = {-r, -r, -r}, hi[3] = {r, r, r};
+        add_box(s, 0, lo, hi);
+    }
+    scene_plan(s, 1);
+    for (int trial = 0; trial < 100; trial++) {
+        double sun[3], observer[3];
+        random_pair(&state, sun, observer);
+        look(s, sun, observer, 0);
+        for (int k = 0; k < s->model.n_facets; k++) {
+            const placed_facet f = place_facet(s, k);
+            const bool shines = k < 6 && dot3(f.normal, sun) > 0 && dot3(f.normal, observer) > 0;
+            assert_near(fraction(s, k), shines ? 1.0 : 0.0, 0.0);
+        }
+    }
+    scene_free(s);
+}
+END_TEST
+
+/* The floor around a cube again, cut into thousands of slivers between points of its two opposite
+ * edges: together they keep what the floor keeps. */
+START_TEST(test_visibility_slivers_add_up_to_the_floor)
+{
+    enum { SLIVERS = 4000 };
+    const double lo[3] = {-0.8, -0.8, 0}, hi[3] = {0.8, 0.8, 1.6};
+    scene *s = scene_new();
+    for (int k = 0; k < SLIVERS; k++) { /* triangles from edge to edge in turn */
+        const double from = -5 + 10.0 * (k / 2) / (SLIVERS / 2.0), to = from + 20.0 / SLIVERS;
+        const double up[3][3] = {{from, -5, 0}, {to, -5, 0}, {to, 5, 0}};
+        const double down[3][3] = {{from, -5, 0}, {to, 5, 0}, {from, 5, 0}};
+        primitive_spec spec = shape("facet");
+        shape_points(&spec, k % 2 ? down : up, 3);
+        shape_material(&spec, "material", 0);
+        shape_add(&spec, 0, &s->facets);
+    }
+    add_box(s, 0, lo, hi);
+    scene_plan(s, 1);
+    for (int azimuth_deg = 10; azimuth_deg < 360; azimuth_deg += 70) {
+        double sun[3], sum = 0;
+        direction_deg(55, azimuth_deg, sun);
+        look(s, sun, z_axis, 0);
+        for (int k = 0; k < SLIVERS; k++)
+            sum += fraction(s, k) / SLIVERS;
+        assert_near(sum, floor_around_cube(1.6, 1.6, sun), 1e-12);
+    }
+    scene_free(s);
+}
+END_TEST
+
+/* Directions in the planes of facets, along edges and through corners, of bodies that touch: the
+ * fractions stay between 0 and 1 (look asserts it), and a step of 1e-12 off changes what shines by
+ * no more than the step times the outlines. */
+START_TEST(test_visibility_along_edges_is_continuous)
+{
+    scene *s = scene_new();
+    const double lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1}, next[3] = {1, 0, 0}, end[3] = {2, 1, 0.5};
+    const double corner[3] = {1, 1, 1}, far[3] = {1.5, 1.5, 1.5};
+    add_box(s, 0, lo, hi);
+    add_box(s, 0, next, end);
+    add_box(s, 0, corner, far);
+    add_plate(s, 4, 4, 0.5, 0.5, 0);
+    scene_plan(s, 1);
+    for (int code = 0; code < 27 * 27; code++) {
+        double pair[2][3];
+        for (int j = 0, rest = code; j < 6; j++, rest /= 3)
+            pair[j / 3][j % 3] = rest % 3 - 1;
+        if (norm3(pair[0]) == 0 || norm3(pair[1]) == 0) continue;
+        unit3(pair[0], pair[0]), unit3(pair[1], pair[1]);
+        const double area = shining_area(s, pair[0], pair[1]);
+        for (int j = 0; j < 6; j++) {
+            double moved[2][3];
+            memcpy(moved, pair, sizeof moved);
+            moved[j / 3][j % 3] += 1e-12;
+            assert_near(shining_area(s, moved[0], moved[1]), area, 1e-10);
+        }
+    }
+    scene_free(s);
+}
+END_TEST
+
+/* Bodies in any position, through each other: the Sun and the observer may change places, and steps
+ * of 1e-12 m in the places of parts change little. */
+START_TEST(test_visibility_random_bodies_are_symmetric_and_continuous)
+{
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        scene *s = random_scene(77 * seed);
+        uint64_t state = seed;
+        for (int trial = 0; trial < 10; trial++) {
+            double sun[3], observer[3];
+            random_pair(&state, sun, observer);
+            const double area = shining_area(s, sun, observer);
+            assert_near(shining_area(s, observer, sun), area, 1e-11);
+            s->poses[1].origin_m[trial % 3] += 1e-12;
+            assert_near(shining_area(s, sun, observer), area, 1e-10);
+        }
+        scene_free(s);
+    }
+}
+END_TEST
+
+/* A flap of the floor's size on a hinge along its edge, Sun and observer overhead: it leaves
+ * 1 - cos(angle) of the floor until it stands upright, and all of it beyond. Moved from almost
+ * lying on the floor to almost beside it. */
+START_TEST(test_visibility_flap_turns_through_contact)
+{
+    scene *s = scene_new();
+    add_plate(s, 2, 2, 1, 0, 0);
+    const double centre[3] = {1, 0, 0};
+    primitive_spec spec = plate_shape(2, 2, centre, z_axis, x_axis);
+    shape_add(&spec, 1, &s->facets);
+    s->components[1].parent = 0;
+    s->components[1].moves = true;
+    copy3(y_axis, s->components[1].axis);
+    scene_plan(s, 2);
+    for (int k = 1; k < 2000; k++) {
+        const double angle = k == 1 ? 1e-7 : PI * k / 2000.0;
+        mat_turn(y_axis, -angle, s->poses[1].body_component);
+        assert_near(fraction_for(s, 0, z_axis, z_axis), 1.0 - fmax(0.0, cos(angle)), 1e-12);
+    }
+    scene_free(s);
+}
+END_TEST
+
+/* ---------------------------------------------------------------- lists by sectors, rays */
+
+/* Fractions do not depend on what was asked before: not on lists that were made on the way, nor on
+ * the moment at which they were. */
+START_TEST(test_visibility_does_not_depend_on_what_was_asked_before)
+{
+    enum { ROWS = 1500 };
+    scene *s = random_scene(4711);
+    visibility_scratch *fresh;
+    double *alone = malloc((size_t)s->model.n_facets * BRDF_TILE * sizeof *alone);
+    uint64_t state = 3;
+    for (int row = 0; row < ROWS; row++) {
+        double sun[3], observer[3], turn[9], before[9];
+        random_direction(&state, sun);
+        random_direction(&state, observer);
+        unit3(sun, sun), unit3(observer, observer);
+        memcpy(before, s->poses[2].body_component, sizeof before);
+        mat_turn(s->components[2].axis, 0.3, turn);
+        mat_mul(before, turn, s->poses[2].body_component);
+        visibility_fill(s->plan, s->scratch, s->poses, sun, observer, 0, s->visible, NULL);
+        ck_assert_int_eq(visibility_scratch_make(s->plan, &fresh, NULL), GLINT_OK);
+        visibility_fill(s->plan, fresh, s->poses, sun, observer, 0, alone, NULL);
+        for (int k = 0; k < s->model.n_facets; k++)
+            assert_near(fraction(s, k), alone[(size_t)k * BRDF_TILE], 0.0);
+        visibility_scratch_free(fresh);
+    }
+    free(alone);
+    scene_free(s);
+}
+END_TEST
+
+/* The rms over facets that are partly hidden of what rays give less the exact fraction. */
+static double rays_error(int n_rays)
+{
+    double sum = 0;
+    int n = 0;
+    for (uint64_t seed = 1; seed <= 30; seed++) {
+        scene *s = random_scene(31 * seed);
+        uint64_t state = seed;
+        double sun[3], observer[3];
+        random_pair(&state, sun, observer);
+        look(s, sun, observer, 0);
+        ck_assert_int_eq(visibility_use_rays(s->plan, &s->model, n_rays, NULL), GLINT_OK);
+        look(s, sun, observer, 1);
+        for (int k = 0; k < s->model.n_facets; k++) {
+            const double exact = s->visible[(size_t)k * BRDF_TILE];
+            const double traced = s->visible[(size_t)k * BRDF_TILE + 1];
+            if (exact <= 0 || exact >= 1) { /* a sliver may be lost at an edge */
+                assert_near(traced, exact, 1.0 / n_rays + 1e-3);
+                continue;
+            }
+            sum += (traced - exact) * (traced - exact);
+            n++;
+        }
+        scene_free(s);
+    }
+    ck_assert_int_gt(n, 100);
+    return sqrt(sum / n);
+}
+
+/* Points at random would err by up to 0.5 / sqrt(n); evenly spread ones by less, and by n^-3/4 as n
+ * grows (a straight edge across n cells meets sqrt(n) of them, each of which errs by 1/n). */
+START_TEST(test_visibility_rays_converge_to_exact)
+{
+    if (!visibility_has_rays()) {
+        printf("SKIPPED: built without Embree\n");
+        return;
+    }
+    double before = 1;
+    for (int n = 16; n <= 4096; n *= 16) {
+        const double error = rays_error(n);
+        printf("rays: %d of each facet, rms error %.2g\n", n, error);
+        ck_assert_double_lt(error, 0.5 / sqrt(n));
+        ck_assert_double_lt(error, before / 4); /* as sqrt(n) at least */
+        before = error;
+    }
+}
+END_TEST
+
 static Suite *visibility_suite(void)
 {
     Suite *suite = suite_create("visibility");
@@ -571,9 +841,21 @@ static Suite *visibility_suite(void)
     tcase_add_test(forms, test_visibility_many_small_shadows_add_up);
     tcase_add_test(forms, test_visibility_pile_of_plates_shows_strips);
     suite_add_tcase(suite, forms);
+    TCase *touching = tcase_create("touching");
+    tcase_set_timeout(touching, 120);
+    tcase_add_test(touching, test_visibility_cube_in_pieces_shines_as_the_whole);
+    tcase_add_test(touching, test_visibility_plates_in_one_plane_leave_each_other_alone);
+    tcase_add_test(touching, test_visibility_nested_bodies_show_the_outer_one);
+    tcase_add_test(touching, test_visibility_slivers_add_up_to_the_floor);
+    tcase_add_test(touching, test_visibility_along_edges_is_continuous);
+    tcase_add_test(touching, test_visibility_random_bodies_are_symmetric_and_continuous);
+    tcase_add_test(touching, test_visibility_flap_turns_through_contact);
+    suite_add_tcase(suite, touching);
     TCase *rays = tcase_create("rays");
     tcase_set_timeout(rays, 120);
     tcase_add_test(rays, test_visibility_random_bodies_agree_with_rays);
+    tcase_add_test(rays, test_visibility_does_not_depend_on_what_was_asked_before);
+    tcase_add_test(rays, test_visibility_rays_converge_to_exact);
     suite_add_tcase(suite, rays);
     TCase *published = tcase_create("published");
     tcase_add_test(published, test_visibility_intelsat901_agrees_with_published_sums);

@@ -8,6 +8,7 @@ glint_test(mesh)
 glint_test(mesh_light)
 target_compile_definitions(test_mesh_light PRIVATE SCENARIO_DIR="${PROJECT_SOURCE_DIR}/scenarios")
 glint_test(model)
+glint_test(visibility)
 glint_test(visibility_pieces)
 glint_test(view PkgConfig::CAIRO)
 glint_test(attitude)
@@ -20,7 +21,10 @@ glint_test(clock PkgConfig::ERFA)
 glint_test(frames PkgConfig::ERFA)
 glint_test(earth PkgConfig::ERFA)
 glint_test(eclipse)
-glint_test(moon)
+glint_test(moon PkgConfig::ERFA)
+glint_test(horizon)
+glint_test(refraction)
+glint_test(eop)
 glint_test(kepler)
 glint_test(ccsds)
 glint_test(oem)
@@ -48,11 +52,14 @@ glint_test(scenario_files)
 glint_test(endtoend)
 glint_test(curve)
 glint_test(photometry)
+glint_test(shadows)
 glint_test(coverage)
 glint_test(solar_disc)
 glint_test(verify)
 glint_test(passes)
+glint_test(flashes)
 glint_test(ephemeris)
+glint_test(observers)
 glint_test(output)
 glint_test(plot)
 glint_test(material_api)
@@ -87,6 +94,10 @@ add_test(NAME program COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_cli.sh $<TARGET_F
 add_test(NAME passes_program COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_passes.sh
     $<TARGET_FILE:glint_program> ${PROJECT_SOURCE_DIR}/scenarios)
 
+# The example of every command's --help.
+add_test(NAME examples COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_examples.sh
+    $<TARGET_FILE:glint_program> ${PROJECT_SOURCE_DIR}/scenarios)
+
 # README.md and docs/: commands, scenarios, keys. The program of docs/api.md is taken out of the page
 # and compiled.
 glint_test(docs_tables)
@@ -114,7 +125,12 @@ if(GLINT_PYTHON)
         ${GLINT_PYTHON} ${PROJECT_SOURCE_DIR}/scenarios/models)
     add_test(NAME ecsv COMMAND ${GLINT_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test_ecsv.py
         $<TARGET_FILE:glint_program> ${CMAKE_CURRENT_SOURCE_DIR}/data)
+    # Ephemerides and passes against sgp4, Skyfield and ERFA for Python.
+    add_test(NAME astronomy COMMAND ${GLINT_PYTHON}
+        ${CMAKE_CURRENT_SOURCE_DIR}/test_astronomy.py $<TARGET_FILE:glint_program>)
 else()
     add_test(NAME ecsv COMMAND sh -c "echo 'SKIPPED: tables read by astropy: no python3'; exit 77")
+    add_test(NAME astronomy COMMAND sh -c
+        "echo 'SKIPPED: ephemerides against other programs: no python3'; exit 77")
 endif()
-set_tests_properties(ecsv PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(ecsv astronomy PROPERTIES SKIP_RETURN_CODE 77)

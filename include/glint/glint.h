@@ -82,11 +82,13 @@ void glint_scenario_free(glint_scenario *scenario);
 
 /* Why a row is faint or dark; any number of them. */
 typedef enum glint_flag {
-    GLINT_BELOW_HORIZON = 1u << 0, /* elevation below min_elevation_deg */
+    GLINT_BELOW_HORIZON = 1u << 0, /* elevation below min_elevation_deg or the site's mask */
     GLINT_UMBRA = 1u << 1,         /* no part of the Sun is seen from the satellite */
     GLINT_PENUMBRA = 1u << 2,      /* some part of it */
     GLINT_DARK = 1u << 3,          /* nothing lit is seen, though neither of the above says why */
-    GLINT_SITE_DARK = 1u << 4      /* the Sun is below sun_elevation_max_deg at the site */
+    GLINT_SITE_DARK = 1u << 4,     /* the Sun is below sun_elevation_max_deg at the site */
+    GLINT_BLOCKED = 1u << 5,    /* the Earth stands between a satellite that looks and this one */
+    GLINT_MOON_SHADOW = 1u << 6 /* the Moon covers some part of the Sun, or all of it */
 } glint_flag;
 
 /* A moment of UTC; `second` may reach 60 in a leap second. microsecond: 0..999999. */
@@ -94,22 +96,28 @@ typedef struct glint_utc {
     int year, month, day, hour, minute, second, microsecond;
 } glint_utc;
 
-/* One step of a light curve. Angles in rad, lengths in m. Site fields are 0 where the observer is
- * not a site. */
+/* One step of a light curve. Angles in rad, lengths in m. Site fields, from azimuth to airmass and
+ * those of the Moon's place, are 0 where the observer is not a site; those of the Moon where
+ * [output] moon does not ask for them. */
 typedef struct glint_row {
-    glint_utc utc;                 /* of reception at the observer; not set in [geometry] runs */
-    double t_s;                    /* TT seconds from the start of the scenario */
-    double range_m;                /* observer to satellite, along the light path */
-    double phase_angle_rad;        /* at the satellite, between Sun and observer */
-    double sunlit_fraction;        /* visible part of the solar disc */
-    double azimuth_rad;            /* from north through east */
-    double elevation_rad;          /* geometric */
-    double sun_elevation_rad;      /* topocentric, geometric */
-    double airmass;                /* 0 below the horizon */
-    double height_m;               /* geodetic, of the satellite; 0 where nothing asks for it */
-    double angular_rate_rad_s;     /* against the stars; 0 in [geometry] runs */
-    double site_height_m;          /* of the observer above the ellipsoid; 0 where it is no site */
-    unsigned flags;                /* glint_flag */
+    glint_utc utc;            /* of reception at the observer; not set in [geometry] runs */
+    double t_s;               /* TT seconds from the start of the scenario */
+    double range_m;           /* observer to satellite, along the light path */
+    double phase_angle_rad;   /* at the satellite, between Sun and observer */
+    double sunlit_fraction;   /* visible part of the solar disc */
+    double azimuth_rad;       /* from north through east */
+    double elevation_rad;     /* geometric, or apparent where the site has refraction */
+    double sun_elevation_rad; /* topocentric, geometric */
+    double airmass;           /* 0 below the horizon */
+    double height_m;          /* geodetic, of the satellite; 0 where nothing asks for it */
+    double angular_rate_rad_s; /* against the stars; 0 where nothing asks for it */
+    double site_height_m;      /* of the observer above the ellipsoid; 0 where it is no site */
+    double moon_azimuth_rad, moon_elevation_rad; /* topocentric, geometric */
+    double moon_separation_rad;                  /* between satellite and Moon, from the observer */
+    double moon_illuminated;                     /* fraction of the Moon's disc */
+    unsigned flags;                              /* glint_flag */
+    bool has_site;                               /* the observer is a site */
+    const char *observer;          /* its name, "" where not said; borrowed from the scenario */
     const double *flux_ratio;      /* n_bands: irradiance at the observer over the Sun's at 1 au */
     const double *magnitude;       /* n_bands; only where flux_ratio > 0, else 0 */
     const double *share_material;  /* n_materials, of the first band's flux; all 0 when dark */
@@ -123,7 +131,8 @@ typedef struct glint_column {
     bool is_text;
 } glint_column;
 
-/* A light curve that is being computed: blocks of rows in order of time, in constant memory. */
+/* A light curve that is being computed: blocks of rows, for each observer in order of time, in
+ * constant memory. */
 typedef struct glint_curve glint_curve;
 
 /* Prepares a run. threads: 0 for all processors. The scenario must outlive the curve. Errors:
@@ -131,7 +140,10 @@ typedef struct glint_curve glint_curve;
 glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint_curve **out,
                               glint_errors *errors);
 void glint_curve_close(glint_curve *curve);
-/* Number of steps of the whole run, before [output] rows chooses among them. */
+/* Number of observers. The rows of the first come first, in order of time, then those of the
+ * next. */
+size_t glint_curve_observers(const glint_curve *curve);
+/* Number of rows of the whole run, before [output] rows chooses among them. */
 int64_t glint_curve_length(const glint_curve *curve);
 
 /* The next block: *rows points at *n rows, borrowed until the next call; *n = 0 at the end. Rows
@@ -140,7 +152,7 @@ int64_t glint_curve_length(const glint_curve *curve);
 glint_status glint_curve_next(glint_curve *curve, const glint_row **rows, size_t *n,
                               glint_error *error);
 
-/* Steps computed so far. */
+/* Rows computed so far. */
 int64_t glint_curve_done(const glint_curve *curve);
 /* Number of threads that it computes with. */
 int glint_curve_threads(const glint_curve *curve);
@@ -176,7 +188,8 @@ size_t glint_curve_text(const glint_curve *curve, const glint_row *row, size_t c
 
 /* ------------------------------------------------------------------- table */
 
-/* What a run came to; times in s of the rows that are in the table. */
+/* What a run came to, of the rows that are in the table. Times in s: each row stands for half a
+ * step before it and half a step after it, within the run. */
 typedef struct glint_summary {
     int64_t rows;                                          /* in the table */
     int64_t bright_rows;                                   /* with a magnitude in the first band */
@@ -184,9 +197,12 @@ typedef struct glint_summary {
     double percent_brighter_6, percent_brighter_7;         /* of those; first band */
     double sunlit_s, visible_s; /* sunlit_fraction > 0; that, and above the horizon */
     double brightest_t_s;       /* of the brightest row */
-    glint_utc brightest_utc;    /* not set in [geometry] runs */
+    const char
+        *brightest_observer; /* the name of the one who sees it; borrowed from the scenario */
+    glint_utc brightest_utc; /* not set in [geometry] runs */
     bool has_utc;
-    const char *band; /* the first, borrowed from the curve */
+    size_t n_observers; /* of the run */
+    const char *band;   /* the first, borrowed from the curve */
 } glint_summary;
 
 /* Called after each block with the number of steps done; return false to stop the run, which then
@@ -216,7 +232,8 @@ typedef enum glint_event_kind {
     GLINT_DARKNESS_BEGIN, /* the Sun sets below sun_elevation_max_deg at the site */
     GLINT_DARKNESS_END,
     GLINT_BRIGHTEST, /* smallest magnitude in the first band */
-    GLINT_FLASH      /* a flat surface mirrors the Sun towards the observer, as nearly as it will */
+    GLINT_FLASH,     /* a flat surface mirrors the Sun towards the observer, as nearly as it will */
+    GLINT_MORE_FLASHES /* from here on flashes are left out: see more_flashes */
 } glint_event_kind;
 
 /* One event, as seen from the site. Angles in rad, lengths in m. */
@@ -238,41 +255,47 @@ typedef struct glint_pass_event {
     double normal[3];        /* of the surface, unit, in the component's axes */
 } glint_pass_event;
 
-/* One pass over the site. */
+/* One pass over a site. */
 typedef struct glint_pass {
+    const char *site;            /* its name, "" where not said; borrowed from the scenario */
     double from_s, to_s;         /* rise and set, or where the time span cuts the pass off */
     bool up_at_start, up_at_end; /* it is cut off: there is no rise, no set */
     bool has_magnitudes;         /* attitude and satellite are known: brightness was looked for */
-    bool more_flashes;           /* there are more than were kept: the first 1000 */
+    bool more_flashes;           /* flashes are left out, from the time of an event of their own on:
+                                  * there are more than 1000, or they take too long to find */
     double sunlit_s;             /* time with some sunlight on the satellite */
     double dark_site_s;          /* of that, while the site is dark */
     const glint_pass_event *events; /* in order of time */
     size_t n_events;
 } glint_pass;
 
+/* Limits of the largest mirror angle of a flash, deg. */
+#define GLINT_FLASH_ANGLE_MIN_DEG 1e-3
+#define GLINT_FLASH_ANGLE_MAX_DEG 90.0
+
 /* What is looked for; zero-initialise for what is usual. */
 typedef struct glint_pass_options {
-    double flash_angle_rad; /* largest mirror angle of a flash; 0: 1 deg */
+    double flash_angle_rad; /* largest mirror angle of a flash, within these limits; 0: 1 deg */
     int threads;            /* 0: all processors */
 } glint_pass_options;
 
-/* All passes of a satellite over a site within the time span of the scenario, in order of time. */
+/* All passes of a satellite over the sites of a scenario within its time span: site by site in the
+ * order of the file, and in order of time over each. */
 typedef struct glint_passes glint_passes;
 
 /* Finds them. scenario: must outlive *out; of glint_scenario_read_orbit, or glint_scenario_read.
  * options: NULL for what is usual. Rise, set and the Earth's shadow are found as roots, to 1e-6 s;
- * [time] step_s plays no part. Errors: GLINT_INPUT (directions are given instead of an orbit; the
- * orbit fails at some time), GLINT_ARGUMENT, GLINT_INTERNAL. */
+ * [time] step_s plays no part. Observers that are no sites are passed over. Errors: GLINT_INPUT
+ * (directions are given instead of an orbit; no observer is a site; the orbit fails at some time),
+ * GLINT_ARGUMENT, GLINT_INTERNAL. */
 glint_status glint_passes_find(const glint_scenario *scenario, const glint_pass_options *options,
                                glint_passes **out, glint_error *error);
 void glint_passes_free(glint_passes *passes);
 size_t glint_passes_count(const glint_passes *passes);
 /* Pass k from 0, borrowed; NULL past the end. */
 const glint_pass *glint_passes_get(const glint_passes *passes, size_t k);
-/* Name of the band of the magnitudes, of the site and of the satellite; "" where not said.
- * Borrowed. */
+/* Name of the band of the magnitudes, and of the satellite; "" where not said. Borrowed. */
 const char *glint_passes_band(const glint_passes *passes);
-const char *glint_passes_site(const glint_passes *passes);
 const char *glint_passes_satellite(const glint_passes *passes);
 /* "rise", "culmination", "set", "umbra-end", ...; NULL for no such kind. */
 const char *glint_event_name(glint_event_kind kind);
@@ -298,12 +321,17 @@ glint_status glint_passes_write(const glint_passes *const *passes, size_t n, gli
 typedef struct glint_ephemeris_row {
     double t_s; /* TT seconds from the start, of reception */
     glint_utc utc;
-    double ra_rad, dec_rad; /* from the site along the light path, ICRS axes; 0..2 pi, -pi/2..pi/2.
-                               Stars are displaced by annual aberration against it */
+    size_t observer;           /* its number in the scenario, from 0 */
+    const char *observer_name; /* borrowed from the scenario; "" where not said */
+    double ra_rad,
+        dec_rad;               /* from the observer along the light path, ICRS axes; 0..2 pi,
+                                  -pi/2..pi/2.    Stars are displaced by annual aberration against it */
     double angular_rate_rad_s; /* against the stars */
-    double azimuth_rad, elevation_rad, range_m, range_rate_m_s;
-    double sun_elevation_rad, sun_separation_rad, moon_separation_rad; /* from the site */
-    double phase_angle_rad, sunlit_fraction;                           /* at the satellite */
+    double azimuth_rad, elevation_rad; /* of a site, as glint_row has them; else 0 */
+    double range_m, range_rate_m_s;
+    double sun_elevation_rad;                       /* of a site; else 0 */
+    double sun_separation_rad, moon_separation_rad; /* from the observer */
+    double phase_angle_rad, sunlit_fraction;        /* at the satellite */
     double beta_rad; /* of the Sun above the plane of the orbit, positive towards r x v */
     double r_gcrs_m[3], v_gcrs_m_s[3];
     double r_itrs_m[3], v_itrs_m_s[3];            /* velocity against the turning Earth */
@@ -313,7 +341,8 @@ typedef struct glint_ephemeris_row {
     const double *hinge_rad;   /* of each component that has a hinge, in the order of the model */
 } glint_ephemeris_row;
 
-/* An ephemeris that is being computed: blocks of rows in order of time, in constant memory. */
+/* An ephemeris that is being computed: blocks of rows, for each observer in order of time, in
+ * constant memory. */
 typedef struct glint_ephemeris glint_ephemeris;
 
 /* Prepares one. scenario: must outlive it; of glint_scenario_read_orbit, or glint_scenario_read.
@@ -326,13 +355,14 @@ void glint_ephemeris_close(glint_ephemeris *ephemeris);
  * GLINT_INPUT where orbit or attitude fail at some time; GLINT_INTERNAL. */
 glint_status glint_ephemeris_next(glint_ephemeris *ephemeris, const glint_ephemeris_row **rows,
                                   size_t *n, glint_error *error);
-/* Number of steps of the whole, and of those done. */
+/* Number of rows of the whole, and of those done: the steps of the first observer, then those of
+ * the next. */
 int64_t glint_ephemeris_length(const glint_ephemeris *ephemeris);
 int64_t glint_ephemeris_done(const glint_ephemeris *ephemeris);
 /* The columns of its table: what the scenario does not have (TEME, attitude, hinges) is not there.
  */
 const glint_column *glint_ephemeris_columns(const glint_ephemeris *ephemeris, size_t *n);
-/* The number in a cell; false where it is a text (the first column, utc). */
+/* The number in a cell; false where it is a text (utc and observer), or empty for this observer. */
 bool glint_ephemeris_value(const glint_ephemeris *ephemeris, const glint_ephemeris_row *row,
                            size_t column, double *value);
 /* What the header of its table says: fact k from 0; false past the end. Texts borrowed. */

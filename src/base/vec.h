@@ -6,6 +6,8 @@
 #ifndef GLINT_BASE_VEC_H
 #define GLINT_BASE_VEC_H
 
+#include "base/fasttrig.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -56,6 +58,12 @@ static inline void add_scaled3(const double a[3], double s, const double b[3], d
 /* Unit vector of a, safe from overflow and underflow; returns |a| (0 leaves out = 0). */
 static inline double unit3(const double a[3], double out[3])
 {
+    const double square = dot3(a, a);
+    if (square > 1e-280 && square < 1e280) { /* nothing can overflow, and no digits are lost */
+        const double length = sqrt(square);
+        scale3(a, 1.0 / length, out);
+        return length;
+    }
     const double m = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
     if (!(m > 0.0)) {
         out[0] = out[1] = out[2] = 0.0;
@@ -131,7 +139,9 @@ static inline void mat_rows(const double x[3], const double y[3], const double z
 /* Matrix that turns vectors right-handed by `angle` rad about the unit `axis` (Rodrigues). */
 static inline void mat_turn(const double axis[3], double angle, double out[9])
 {
-    const double c = cos(angle), s = sin(angle), d = 1.0 - c;
+    double s, c;
+    fast_sin_cos(angle, &s, &c);
+    const double d = 1.0 - c;
     const double x = axis[0], y = axis[1], z = axis[2];
     out[0] = c + d * x * x, out[1] = d * x * y - s * z, out[2] = d * x * z + s * y;
     out[3] = d * y * x + s * z, out[4] = c + d * y * y, out[5] = d * y * z - s * x;

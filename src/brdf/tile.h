@@ -19,28 +19,18 @@
 #ifndef GLINT_BRDF_TILE_H
 #define GLINT_BRDF_TILE_H
 
+#include "base/clones.h"
 #include "brdf/lane.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-/* The kernel is compiled for three generations of x86-64, and the best one that the processor has
- * is chosen when the program is loaded. Sanitizers cannot run the code that chooses, and only GCC
- * with glibc offers it. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__GLIBC__) &&       \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(BRDF_NO_CLONES)
-#define BRDF_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
+/* BRDF_NO_CLONES: for tests that need one version alone. */
+#if defined(BRDF_NO_CLONES)
 #define BRDF_CLONES
-#endif
-
-/* Everything that the kernel calls becomes part of it: only so can it be vectorised, and compiled
- * for the processor that it is chosen for. */
-#if defined(__GNUC__)
-#define BRDF_FLATTEN __attribute__((flatten))
 #else
-#define BRDF_FLATTEN
+#define BRDF_CLONES CLONES
 #endif
 
 /* The cosines of a tile's directions to facet f; false when none of the pairs is on its front. */
@@ -102,9 +92,9 @@ static inline void brdf_tile_add(const double *coef, const brdf_facets *facets, 
     }
 }
 
-BRDF_CLONES BRDF_FLATTEN static void brdf_tile(const double *coef, double weight,
-                                               const brdf_facets *facets, const brdf_light *light,
-                                               const double *visible, double sum[BRDF_TILE])
+BRDF_CLONES FLATTEN static void brdf_tile(const double *coef, double weight,
+                                          const brdf_facets *facets, const brdf_light *light,
+                                          const double *visible, double sum[BRDF_TILE])
 {
 #ifdef BRDF_LONG_COEF
     const double *const c = coef;

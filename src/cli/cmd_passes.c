@@ -67,7 +67,8 @@ glint_status cmd_passes(const options *o)
 {
     glint_error error = {0};
     double flash_angle_deg = 1;
-    if (options_number(o, OPTION_FLASH_ANGLE, 1e-3, 90, &flash_angle_deg, &error))
+    if (options_number(o, OPTION_FLASH_ANGLE, GLINT_FLASH_ANGLE_MIN_DEG, GLINT_FLASH_ANGLE_MAX_DEG,
+                       &flash_angle_deg, &error))
         return fail(o, &error);
     found f = {calloc(o->n_operands, sizeof(glint_scenario *)),
                calloc(o->n_operands, sizeof(glint_passes *)), o->n_operands};

@@ -28,7 +28,8 @@ static const command commands[] = {
          "Reads SCENARIO with the files that it names and writes a row for every step: time,\n"
          "magnitudes, flux ratios, range, phase angle, sunlit fraction, flags, the place in the\n"
          "sky for a site on the ground, and the shares of materials and components. The table\n"
-         "begins with a header of comments (ECSV) that holds units and the whole scenario.\n"
+         "begins with a header of comments (ECSV) that holds units and the whole scenario. Rows\n"
+         "of several observers follow each other, each with the observer's name.\n"
          "\n"
          "With --plot the magnitudes and the shares over time are drawn, too. A summary on\n"
          "standard error ends the run.",
@@ -68,13 +69,14 @@ static const command commands[] = {
      .run = cmd_verify},
     {.name = "passes",
      .arguments = "SCENARIO...",
-     .summary = "find passes over the site: rise, set, shadow, brightest moment, flashes",
+     .summary = "find passes over sites: rise, set, shadow, brightest moment, flashes",
      .details =
-         "Finds when the satellite is above min_elevation_deg, when it culminates, when it enters\n"
-         "and leaves the Earth's shadow, and when the site is dark, all to 1 ms; with an attitude\n"
-         "and a satellite also when it is brightest, and when a flat shiny surface mirrors the\n"
-         "Sun to the observer. The step of the scenario plays no part. Passes of several\n"
-         "scenarios become one table in order of time.\n"
+         "Finds when the satellite is above the horizon of a site (min_elevation_deg, its mask),\n"
+         "when it culminates, when it enters and leaves the Earth's shadow, and when the site is\n"
+         "dark, all to 1 ms; with an attitude and a satellite also when it is brightest, and when\n"
+         "a flat shiny surface mirrors the Sun to the observer. The step of the scenario plays no\n"
+         "part. Passes over several sites and of several scenarios become one table in order of\n"
+         "time.\n"
          "\n"
          "[attitude] and [satellite] may be absent: there is no brightness then.",
      .example = "glint passes scenarios/iss-vienna.toml --set time.end=2025-07-27T19:10:00Z",
@@ -88,7 +90,7 @@ static const command commands[] = {
      .arguments = "SCENARIO",
      .summary = "write positions, directions and angles over time, frame by frame",
      .details =
-         "A row for every step: right ascension and declination from the site, angular rate,\n"
+         "A row for every step: right ascension and declination from the observer, angular rate,\n"
          "azimuth, elevation, range and range rate, distance from the Sun and the Moon in the\n"
          "sky, phase angle, sunlit fraction, the Sun above the plane of the orbit, the point\n"
          "below the satellite, positions and velocities in GCRS, ITRS and (of element sets)\n"

@@ -117,7 +117,12 @@ void report_summary(const glint_summary *s)
             print_utc(&s->brightest_utc);
             fprintf(stderr, ", ");
         }
-        fprintf(stderr, "t_s = %.12g\n", s->brightest_t_s);
+        fprintf(stderr, "t_s = %.12g", s->brightest_t_s);
+        if (s->n_observers > 1) {
+            fprintf(stderr, ", seen by ");
+            print_plain(s->brightest_observer);
+        }
+        putc('\n', stderr);
     }
 }
 

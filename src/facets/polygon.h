@@ -79,6 +79,10 @@ void polygon_list_drop(polygon_list *list);
 polygon_relation polygon_relate(const polygon_list *list, int k, const polygon_list *covers,
                                 int cover);
 
+/* Whether n >= 1 points are all outside the same edge of polygon k of a list: then their convex hull
+ * shares no area with it. */
+bool polygon_has_aside(const polygon_list *list, int k, const point2 *points, int n);
+
 /* Memory that polygon_uncovered_area works in; zero-initialise; grows as needed; owned arrays. */
 typedef struct polygon_work {
     polygon_list parts; /* a stack */

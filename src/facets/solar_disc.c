@@ -461,7 +461,7 @@ typedef struct facet_axes {
 
 /* Lanes in which the facet is lit by some of the disc, and seen: -1. low: of these, the ones in
  * which the disc is near to the horizon or the two directions are near to each other. */
-LANES_CLONES static bool find_lit(const facet_axes *f, const brdf_light *light,
+CLONES static bool find_lit(const facet_axes *f, const brdf_light *light,
                                   const source_disc *disc, double opposition,
                                   int64_t lit[BRDF_TILE], int64_t low[BRDF_TILE])
 {
@@ -480,7 +480,7 @@ LANES_CLONES static bool find_lit(const facet_axes *f, const brdf_light *light,
 }
 
 /* The scalar test of disc_push, loosened, for all lanes of a facet at once: adds to `wanted`. */
-LANES_CLONES static void find_blurred(const lobe_shape *shape, const facet_axes *f,
+CLONES static void find_blurred(const lobe_shape *shape, const facet_axes *f,
                                       const brdf_light *light, const source_disc *disc,
                                       const int64_t lit[BRDF_TILE], int64_t wanted[BRDF_TILE])
 {

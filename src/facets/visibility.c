@@ -3,28 +3,45 @@
  * other one is carried over through the facet's plane. */
 #include "base/vec.h"
 #include "facets/polygon.h"
-#include "facets/visibility_view.h"
+#include "facets/visibility_rays.h"
+#include "facets/visibility_sectors.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 struct visibility_scratch {
+    const visibility *plan; /* borrowed */
     visibility_pose *poses; /* owned; that the views were computed for */
     bool has_poses;
-    view views[2];        /* of the source, of the observer */
+    view views[2]; /* of the source, of the observer */
+    sectors sectors;
+    const sector_lists *
+        *lists[2];        /* owned; for each view and root; NULL: the tree is to be walked */
     polygon_list outline; /* of the facet, in the plane of its better view */
     polygon_list covers;  /* there too */
     polygon_work work;
     point2 *points;          /* owned; of a body's part before the facet */
+    double (*ring)[3];       /* owned; what matters of an outline */
+    double *heights_m;       /* owned; of each vertex, where they are asked for */
     int *nodes, *candidates; /* owned; for the walk through the trees; what it found */
     unsigned *passed_over;   /* owned; of each occluder: number of the last search that did so */
     unsigned n_searches;
+    int n_whole; /* polygons among the covers of a view that are wholly before the facet */
+    bool ragged; /* some edge of these, with nothing beyond, may lie across the facet */
 };
+
+/* Rings of more corners are trimmed before they are looked at more closely. */
+enum { WORTH_TRIMMING = 12 };
+
+/* Cosine below which a facet beyond an edge may be lost in rounding (visibility_plan.c: SPLINTER).
+ */
+#define FORESHORTENED 1e-3
 
 /* A facet in one view. */
 typedef struct target {
     const exposed_facet *facet;
     view *view;
+    const sector_lists *lists; /* of the facet's group; NULL: none */
     double near_m;
     shaft shaft;
     const double *from; /* its first corner */
@@ -33,42 +50,18 @@ typedef struct target {
 
 /* --- the target --- */
 
-/* A side lets through what is more than a rounding error inside. */
-static void make_shaft(const visibility *plan, const view *v, const exposed_facet *f, shaft *s)
+static void set_target(const visibility *plan, visibility_scratch *s, int which,
+                       const exposed_facet *f, target *t)
 {
-    const int *ring = plan->rings + f->first;
-    double a[SHAFT_SIDES] = {0}, b[SHAFT_SIDES] = {0}, c[SHAFT_SIDES] = {1, 1, 1, 1, 1, 1, 1, 1};
-    mat_vec(v->axes[f->component], f->normal, s->normal);
-    s->offset_m = f->offset_m + dot3(s->normal, v->shift_m[f->component]);
-    s->contact_m = f->contact_m;
-    s->lo_x = s->lo_y = INFINITY, s->hi_x = s->hi_y = -INFINITY;
-    for (int k = 0; k < f->n; k++) {
-        const double *p = v->vertices[ring[k]], *q = v->vertices[ring[k + 1 < f->n ? k + 1 : 0]];
-        const double x = p[0], y = p[1], dx = q[0] - x, dy = q[1] - y;
-        s->lo_x = x < s->lo_x ? x : s->lo_x, s->hi_x = x > s->hi_x ? x : s->hi_x;
-        s->lo_y = y < s->lo_y ? y : s->lo_y, s->hi_y = y > s->hi_y ? y : s->hi_y;
-        if (k >= SHAFT_SIDES) continue;
-        a[k] = -dy, b[k] = dx;
-        c[k] = dy * x - dx * y - plan->near_m * (fabs(dx) + fabs(dy));
-    }
-    s->n_fours = f->n > 4 ? 2 : 1;
-    for (int k = 0; k < s->n_fours; k++) {
-        const int j = 4 * k;
-        s->a[k] = (double4){a[j], a[j + 1], a[j + 2], a[j + 3]};
-        s->b[k] = (double4){b[j], b[j + 1], b[j + 2], b[j + 3]};
-        s->c[k] = (double4){c[j], c[j + 1], c[j + 2], c[j + 3]};
-    }
-}
-
-static void set_target(const visibility *plan, view *v, const exposed_facet *f, target *t)
-{
+    view *v = &s->views[which];
     t->facet = f;
     t->view = v;
+    t->lists = s->lists[which][f->root];
     t->near_m = plan->near_m;
     t->from = v->vertices[plan->rings[f->first]];
     t->to_plane[0] = t->to_plane[3] = 1.0;
     t->to_plane[1] = t->to_plane[2] = 0.0;
-    make_shaft(plan, v, f, &t->shaft);
+    shaft_make(plan, v, f, 0.0, &t->shaft);
 }
 
 /* What is at x, y in one view of a point of the facet's plane is at to_plane (x, y) in the other: z
@@ -114,12 +107,41 @@ static point2 crossing(const target *t, const double p[3], const double q[3], do
 
 /* --- covers --- */
 
+/* Which sides of a box a point is outside of, a bit for each. */
+static inline unsigned sides_outside(const box2 *box, const double *p)
+{
+    return (p[0] < box->lo_x) | (p[0] > box->hi_x) << 1 | (p[1] < box->lo_y) << 2 |
+           (p[1] > box->hi_y) << 3;
+}
+
+/* Leaves out of a ring what makes no difference inside a box: of points that follow each other
+ * outside the same side of it, only the first and the last matter. Points of `size` numbers, of
+ * which the first two are x and y. Returns how many are left, in `out`, which may be `ring`. */
+static int trim(const box2 *box, const double *ring, int size, int n, double *out)
+{
+    const unsigned first = sides_outside(box, ring);
+    unsigned common = 0, own = first; /* `common` to all since the last one kept */
+    int count = 0;
+    for (int k = 0; k < n; k++) {
+        const double *p = ring + (long)size * k;
+        const unsigned next = k + 1 < n ? sides_outside(box, p + size) : first;
+        const bool matters = (common & own & next) == 0;
+        common = matters ? own : common & own;
+        own = next;
+        if (matters) memmove(out + (long)size * count++, p, (size_t)size * sizeof *out);
+    }
+    return count;
+}
+
 /* How the search for covers ended. */
 typedef enum outcome { PARTLY_COVERED, ALL_COVERED, NO_MEMORY } outcome;
 
 /* Takes in a cover that was written behind the list, if it covers any of the facet. */
 static outcome take_cover(const target *t, visibility_scratch *s, int n)
 {
+    const polygon_item *outline = &s->outline.items[0];
+    double *points = &s->covers.points[s->covers.n_points].x;
+    if (n > WORTH_TRIMMING) n = trim(&outline->box, points, 2, n, points);
     if (!polygon_list_take(&s->covers, n, t->near_m)) return PARTLY_COVERED;
     const polygon_relation relation = polygon_relate(&s->outline, 0, &s->covers, s->covers.n - 1);
     if (relation == POLYGON_APART) polygon_list_drop(&s->covers);
@@ -154,29 +176,121 @@ static outcome cover_by_part(const target *t, visibility_scratch *s, const doubl
     return take_cover(t, s, count);
 }
 
-/* The part of a body before the facet's plane: the hull of its corners there and of the points
- * where its edges go through the plane. */
-static outcome cover_by_hull(const visibility *plan, const target *t, visibility_scratch *s,
-                             const occluder *o)
+/* Heights of a body's corners over the facet's plane, in scratch.heights_m; returns the greatest.
+ */
+static double find_heights(const visibility *plan, const target *t, visibility_scratch *s,
+                           const occluder *o)
 {
-    const double(*const vertices)[3] = (const double(*)[3])t->view->vertices;
-    int n = 0;
     double highest_m = -INFINITY;
     for (int c = o->first; c < o->first + o->n; c++) {
-        const double *p = vertices[plan->corners[c]], height_m = height_of(t, p);
-        highest_m = fmax(highest_m, height_m);
-        if (height_m >= 0.0) s->points[n++] = in_plane(t, p[0], p[1]);
+        const int v = plan->corners[c];
+        const double height_m = height_of(t, t->view->vertices[v]);
+        s->heights_m[v] = height_m;
+        highest_m = height_m > highest_m ? height_m : highest_m;
     }
-    if (highest_m <= t->facet->contact_m) return PARTLY_COVERED;
-    for (int e = o->first_edge; e < o->first_edge + o->n_edges; e++) {
-        const double *p = vertices[plan->edges[e].from], *q = vertices[plan->edges[e].to];
-        const double at_p = height_of(t, p), at_q = height_of(t, q);
-        if ((at_p > 0.0 && at_q < 0.0) || (at_p < 0.0 && at_q > 0.0))
-            s->points[n++] = crossing(t, p, q, at_p, at_q);
-    }
+    return highest_m;
+}
+
+/* Takes in the hull of the n points in scratch.points. */
+static outcome cover_by_points(const target *t, visibility_scratch *s, int n)
+{
+    if (n == 0 || polygon_has_aside(&s->outline, 0, s->points, n)) return PARTLY_COVERED;
     point2 *room = polygon_list_room(&s->covers, n + 1);
     if (!room) return NO_MEMORY;
     return take_cover(t, s, polygon_hull(s->points, n, room));
+}
+
+/* Appends to n points those at which a body's edges go through the facet's plane.
+ * A corner in the plane counts as before it, as it does in cover_by_part. */
+static int add_crossings(const visibility *plan, const target *t, visibility_scratch *s,
+                         const occluder *o, int n)
+{
+    const double(*const vertices)[3] = (const double(*)[3])t->view->vertices;
+    for (int e = o->first_edge; e < o->first_edge + o->n_edges; e++) {
+        const int from = plan->edges[e].from, to = plan->edges[e].to;
+        const double at_p = s->heights_m[from], at_q = s->heights_m[to];
+        if ((at_p >= 0.0) != (at_q >= 0.0))
+            s->points[n++] = crossing(t, vertices[from], vertices[to], at_p, at_q);
+    }
+    return n;
+}
+
+/* Whether a body may meet the facet itself, not only its plane. */
+static bool may_pierce(const visibility *plan, const exposed_facet *f, int k)
+{
+    if (plan->component_root[plan->occluders[k].component] != f->root) return true;
+    for (int j = f->first_piercing; j < f->first_piercing + f->n_piercing; j++)
+        if (plan->piercing[j] == k) return true;
+    return false;
+}
+
+/* Where the outline of a body is not known: the hull of its corners before the facet's plane and of
+ * the points where its edges go through it. */
+static outcome cover_by_hull(const visibility *plan, const target *t, visibility_scratch *s,
+                             const occluder *o)
+{
+    int n = 0;
+    if (find_heights(plan, t, s, o) <= t->facet->contact_m) return PARTLY_COVERED;
+    for (int c = o->first; c < o->first + o->n; c++) {
+        const double *p = t->view->vertices[plan->corners[c]];
+        if (height_of(t, p) >= 0.0) s->points[n++] = in_plane(t, p[0], p[1]);
+    }
+    return cover_by_points(t, s, add_crossings(plan, t, s, o, n));
+}
+
+/* The part of a body before the facet's plane. What it hides ends at that part of its outline that
+ * is before the plane, and at the section along which the plane cuts it: the section and the ring
+ * of that part of the outline, closed straight through the section, cover the same together. */
+static outcome cover_by_cut_body(const visibility *plan, const target *t, visibility_scratch *s,
+                                 int k, view_ring outline, bool outline_below)
+{
+    const occluder *o = &plan->occluders[k];
+    const double(*ring)[3] = (const double(*)[3])t->view->points + outline.first;
+    if (!outline_below) {
+        const outcome found = cover_by_part(t, s, ring, outline.n);
+        if (found != PARTLY_COVERED) return found;
+    }
+    if (!may_pierce(plan, t->facet, k)) return PARTLY_COVERED;
+    if (find_heights(plan, t, s, o) <= t->facet->contact_m) return PARTLY_COVERED;
+    return cover_by_points(t, s, add_crossings(plan, t, s, o, 0));
+}
+
+/* Whether an edge may lie across the facet: it has points of the facet on its outer side, and its
+ * ends are not both outside one side of the shaft. */
+static bool lies_across(const visibility *plan, const target *t, const double from[3],
+                        const double to[3])
+{
+    const exposed_facet *f = t->facet;
+    const double dx = to[0] - from[0], dy = to[1] - from[1];
+    const double slack = plan->near_m * (fabs(dx) + fabs(dy));
+    bool beyond = false;
+    for (int k = f->first; k < f->first + f->n && !beyond; k++) {
+        const double *p = t->view->vertices[plan->rings[k]];
+        beyond = dx * (p[1] - from[1]) - dy * (p[0] - from[0]) < -slack;
+    }
+    if (!beyond) return false;
+    const double ends[2][3] = {{from[0], from[1], 0}, {to[0], to[1], 0}};
+    return !view_relate(&t->shaft, ends, 2).aside;
+}
+
+/* Notes whether a polygon that covers part of the facet ends there. Where it does not, the facet
+ * beyond its edge goes on covering: it is turned the same way, so that it lies on the other side of
+ * the edge, and the edge is not one in the plane of the facet that is to be covered. */
+static void note_edges(const visibility *plan, const target *t, visibility_scratch *s,
+                       const occluder *o, const double (*ring)[3])
+{
+    const double *cosine = t->view->cosine;
+    const bool backwards = cosine[o->facet] < 0.0;
+    s->n_whole++;
+    for (int k = 0; k < o->n && !s->ragged; k++) {
+        const double *from = ring[k], *to = ring[k + 1 < o->n ? k + 1 : 0];
+        const int corner = !backwards ? k : k + 1 < o->n ? o->n - 2 - k : o->n - 1;
+        const int beyond = plan->beyond[o->first + corner];
+        const bool goes_on = beyond >= 0 &&
+                             (backwards ? -cosine[beyond] : cosine[beyond]) > FORESHORTENED &&
+                             fmax(height_of(t, from), height_of(t, to)) > t->facet->contact_m;
+        s->ragged = !goes_on && lies_across(plan, t, from, to);
+    }
 }
 
 /* Takes in what an occluder covers of the facet. A body may rise before the facet's plane where its
@@ -184,13 +298,29 @@ static outcome cover_by_hull(const visibility *plan, const target *t, visibility
 static outcome cover_by(const visibility *plan, const target *t, visibility_scratch *s, int k)
 {
     const view_ring outline = view_outline(plan, t->view, k);
-    if (outline.n == 0) return cover_by_hull(plan, t, s, &plan->occluders[k]);
     const double(*ring)[3] = (const double(*)[3])t->view->points + outline.first;
-    const shaft_relation lies = view_relate(&t->shaft, ring, outline.n);
+    const occluder *o = &plan->occluders[k];
+    int n = outline.n;
+    if (n == 0) return o->facet < 0 ? cover_by_hull(plan, t, s, o) : PARTLY_COVERED;
+    if (n > WORTH_TRIMMING) {
+        const shaft *before = &t->shaft;
+        const box2 box = {before->lo_x, before->lo_y, before->hi_x, before->hi_y};
+        n = trim(&box, ring[0], 3, n, s->ring[0]);
+        ring = (const double(*)[3])s->ring;
+    }
+    const shaft_relation lies = view_relate(&t->shaft, ring, n);
     if (lies.aside) return PARTLY_COVERED;
-    if (!lies.below && !lies.crosses_plane) return cover_by_ring(t, s, ring, outline.n);
-    if (plan->occluders[k].facet < 0) return cover_by_hull(plan, t, s, &plan->occluders[k]);
-    return lies.below ? PARTLY_COVERED : cover_by_part(t, s, ring, outline.n);
+    const bool whole = !lies.below && !lies.crosses_plane;
+    if (o->facet < 0)
+        return whole ? cover_by_ring(t, s, ring, n)
+                     : cover_by_cut_body(plan, t, s, k, outline, lies.below);
+    if (lies.below) return PARTLY_COVERED;
+    const int n_covers = s->covers.n;
+    const outcome found = whole ? cover_by_ring(t, s, ring, n) : cover_by_part(t, s, ring, n);
+    if (s->covers.n > n_covers && whole)
+        note_edges(plan, t, s, o, (const double(*)[3])t->view->points + outline.first);
+    s->ragged |= s->covers.n > n_covers && !whole;
+    return found;
 }
 
 /* Marks the facet's neighbours around those of its corners from which all are turned to the one who
@@ -213,18 +343,56 @@ static void pass_over_fans(const visibility *plan, const target *t, visibility_s
     }
 }
 
-/* Takes in everything that lies before the facet in one view. */
+/* Copies the list of a facet's own group; *in_fans is set where it has some of a fan. */
+static int copy_list(const visibility *plan, const target *t, int *out, bool *in_fans)
+{
+    const long own = t->facet - plan->exposed - plan->roots[t->facet->root].first_exposed;
+    const int *first = t->lists->first + own;
+    const int n = first[1] - first[0], *items = t->lists->items + first[0];
+    if (n == 1 && items[0] == SECTOR_WALK) return -1;
+    for (int k = 0; k < n; k++) {
+        const bool fan = items[k] < 0;
+        out[k] = fan ? items[k] + SECTOR_FAN : items[k];
+        *in_fans |= fan;
+    }
+    return n;
+}
+
+/* Lists what may lie before the facet in one view, in scratch.candidates; returns how many.
+ * *in_fans: its neighbours may be among them, and itself. */
+static int find_candidates(const visibility *plan, const target *t, visibility_scratch *s,
+                           bool *in_fans)
+{
+    int n = 0;
+    *in_fans = false;
+    for (int root = 0; root < plan->n_roots; root++) {
+        if (root == t->facet->root && t->lists) {
+            const int listed = copy_list(plan, t, s->candidates + n, in_fans);
+            n += listed > 0 ? listed : 0;
+            if (listed >= 0) continue;
+        }
+        n += view_candidates(plan, t->view, &t->shaft, root, s->nodes, s->candidates + n);
+        *in_fans |= root == t->facet->root;
+    }
+    return n;
+}
+
+/* Takes in everything that lies before the facet in one view. Where polygons cover part of it and
+ * none of them ends there, together they cover all of it. */
 static outcome find_covers(const visibility *plan, const target *t, visibility_scratch *s)
 {
-    const int n = view_candidates(plan, t->view, &t->shaft, s->nodes, s->candidates);
+    bool in_fans;
+    const int n = find_candidates(plan, t, s, &in_fans);
     if (n == 0) return PARTLY_COVERED;
-    pass_over_fans(plan, t, s);
+    if (in_fans) pass_over_fans(plan, t, s);
+    s->n_whole = 0;
+    s->ragged = false;
     for (int k = 0; k < n; k++) {
-        if (s->passed_over[s->candidates[k]] == s->n_searches) continue;
+        if (in_fans && s->passed_over[s->candidates[k]] == s->n_searches) continue;
         const outcome found = cover_by(plan, t, s, s->candidates[k]);
         if (found != PARTLY_COVERED) return found;
     }
-    return PARTLY_COVERED;
+    return s->n_whole > 0 && !s->ragged ? ALL_COVERED : PARTLY_COVERED;
 }
 
 /* --- the fraction --- */
@@ -247,17 +415,16 @@ static bool trace_facet(const visibility *plan, const target *t, visibility_scra
 static glint_status fraction_of(const visibility *plan, visibility_scratch *s,
                                 const exposed_facet *f, double *fraction, glint_error *error)
 {
-    const bool source_first = s->views[0].cosine[f->facet] >= s->views[1].cosine[f->facet];
-    view *better = &s->views[source_first ? 0 : 1], *other = &s->views[source_first ? 1 : 0];
+    const int better = s->views[0].cosine[f->facet] >= s->views[1].cosine[f->facet] ? 0 : 1;
     target t;
     *fraction = 0.0;
     polygon_list_clear(&s->covers);
-    set_target(plan, better, f, &t);
+    set_target(plan, s, better, f, &t);
     if (!trace_facet(plan, &t, s)) return GLINT_OK;
     outcome found = find_covers(plan, &t, s);
     if (found == PARTLY_COVERED) {
-        set_target(plan, other, f, &t);
-        carry_over(better, &t);
+        set_target(plan, s, 1 - better, f, &t);
+        carry_over(&s->views[better], &t);
         found = find_covers(plan, &t, s);
     }
     if (found == NO_MEMORY) return error_no_memory(error);
@@ -279,10 +446,9 @@ static bool is_turned_to_both(const visibility_scratch *s, int k)
     return s->views[0].cosine[k] > BRDF_EDGE && s->views[1].cosine[k] > BRDF_EDGE;
 }
 
-glint_status visibility_fill(const visibility *plan, visibility_scratch *s,
-                             const visibility_pose *poses, const double sun_body[3],
-                             const double observer_body[3], int lane, double *visible,
-                             glint_error *error)
+/* Looks from both directions. */
+static void set_views(const visibility *plan, visibility_scratch *s, const visibility_pose *poses,
+                      const double sun_body[3], const double observer_body[3])
 {
     const size_t size = (size_t)plan->n_components * sizeof *poses;
     if (!s->has_poses || memcmp(s->poses, poses, size) != 0) {
@@ -292,16 +458,51 @@ glint_status visibility_fill(const visibility *plan, visibility_scratch *s,
     }
     view_set(plan, poses, sun_body, &s->views[0]);
     view_set(plan, poses, observer_body, &s->views[1]);
+    for (int which = 0; which < 2 && !plan->rays; which++)
+        for (int root = 0; root < plan->n_roots; root++)
+            s->lists[which][root] = sectors_visit(&s->sectors, plan, poses, &s->views[which], root);
+}
+
+/* Rays must be numbers: Embree ends the program where one is not. */
+static glint_status check_numbers(const visibility *plan, const visibility_pose *poses,
+                                  const double sun_body[3], const double observer_body[3],
+                                  glint_error *error)
+{
+    double sum = 0.0;
+    for (int j = 0; j < 3; j++)
+        sum += fabs(sun_body[j]) + fabs(observer_body[j]);
+    for (int c = 0; c < plan->n_components; c++) {
+        for (int j = 0; j < 9; j++)
+            sum += fabs(poses[c].body_component[j]);
+        for (int j = 0; j < 3; j++)
+            sum += fabs(poses[c].origin_m[j]);
+    }
+    if (isfinite(sum)) return GLINT_OK;
+    return error_set(error, GLINT_INTERNAL, PLACE_NONE,
+                     "a direction or a place of a component is no finite number");
+}
+
+glint_status visibility_fill(const visibility *plan, visibility_scratch *s,
+                             const visibility_pose *poses, const double sun_body[3],
+                             const double observer_body[3], int lane, double *visible,
+                             glint_error *error)
+{
+    glint_status status = GLINT_OK;
+    if (plan->rays) status = check_numbers(plan, poses, sun_body, observer_body, error);
+    if (status) return status;
+    set_views(plan, s, poses, sun_body, observer_body);
     for (int k = 0; k < plan->n_facets; k++)
         visible[(size_t)k * BRDF_TILE + (size_t)lane] = is_turned_to_both(s, k) ? 1.0 : 0.0;
-    for (int k = 0; k < plan->n_exposed; k++) {
+    for (int k = 0; k < plan->n_exposed && !status; k++) {
         const exposed_facet *f = &plan->exposed[k];
         if (!is_turned_to_both(s, f->facet)) continue;
         double *fraction = visible + (size_t)f->facet * BRDF_TILE + (size_t)lane;
-        const glint_status status = fraction_of(plan, s, f, fraction, error);
-        if (status) return status;
+        if (plan->rays)
+            *fraction = ray_plan_fraction(plan, plan->rays, poses, f, sun_body, observer_body);
+        else
+            status = fraction_of(plan, s, f, fraction, error);
     }
-    return GLINT_OK;
+    return status;
 }
 
 /* --- scratch --- */
@@ -314,15 +515,21 @@ glint_status visibility_scratch_make(const visibility *plan, visibility_scratch 
     if (!s) return error_no_memory(error);
     const size_t n = (size_t)plan->most_corners, n_hull = n + (size_t)plan->most_edges;
     s->poses = malloc((size_t)plan->n_components * sizeof *s->poses);
+    s->heights_m = malloc((size_t)plan->n_vertices * sizeof *s->heights_m);
+    s->ring = malloc(n * sizeof *s->ring);
     s->points = malloc(n_hull * sizeof *s->points);
     /* the walk writes a whole node's children and then keeps some */
     s->nodes = malloc(((size_t)plan->n_nodes + NODE_CHILDREN) * sizeof *s->nodes);
     s->candidates = malloc(((size_t)plan->n_occluders + NODE_CHILDREN) * sizeof *s->candidates);
     s->passed_over = calloc((size_t)plan->n_occluders, sizeof *s->passed_over);
     const bool views = view_allocate(&s->views[0], plan) && view_allocate(&s->views[1], plan);
+    const bool all_sectors = sectors_allocate(&s->sectors, plan);
+    for (int which = 0; which < 2; which++)
+        s->lists[which] = calloc((size_t)plan->n_roots, sizeof **s->lists);
     const bool outline = polygon_list_room(&s->outline, plan->most_corners);
-    if (!views || !outline || !s->poses || !s->points || !s->nodes || !s->candidates ||
-        !s->passed_over) {
+    s->plan = plan;
+    if (!views || !all_sectors || !s->lists[0] || !s->lists[1] || !outline || !s->poses ||
+        !s->ring || !s->heights_m || !s->points || !s->nodes || !s->candidates || !s->passed_over) {
         visibility_scratch_free(s);
         return error_no_memory(error);
     }
@@ -336,9 +543,14 @@ void visibility_scratch_free(visibility_scratch *s)
     free(s->poses);
     view_free(&s->views[0]);
     view_free(&s->views[1]);
+    sectors_free(&s->sectors, s->plan);
+    free(s->lists[0]);
+    free(s->lists[1]);
     polygon_list_free(&s->outline);
     polygon_list_free(&s->covers);
     polygon_work_free(&s->work);
+    free(s->ring);
+    free(s->heights_m);
     free(s->points);
     free(s->nodes);
     free(s->candidates);

@@ -41,6 +41,18 @@ glint_status visibility_make(const model *m, const visibility_component *compone
                              visibility **out, glint_error *error);
 void visibility_free(visibility *plan);
 
+enum { VISIBILITY_MOST_RAYS = 65536 };
+
+/* Has fractions come from rays from now on: those of rays_per_facet points (1 to
+ * VISIBILITY_MOST_RAYS) of each facet that can be shadowed, spread evenly and the same at all
+ * times. A fraction x is then off by about sqrt(x (1 - x)) n^-0.7, and a sum over facets by less.
+ * For models of so many polygons that exact fractions take too long. Errors: GLINT_INPUT where
+ * glint is built without rays; GLINT_INTERNAL (memory). */
+glint_status visibility_use_rays(visibility *plan, const model *m, int rays_per_facet,
+                                 glint_error *error);
+/* Whether glint is built with them. */
+bool visibility_has_rays(void);
+
 /* True when no facet can ever be shadowed, as on a convex body: visibility_fill would give 1 for
  * everything that is lit and seen, and need not be called. */
 bool visibility_is_trivial(const visibility *plan);

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-/* The edges of closed bodies that end at each vertex. */
+/* The edges that end at each vertex. */
 typedef struct spokes {
     int *first; /* owned; n_vertices + 1 */
     int *edges; /* owned */
@@ -17,7 +17,7 @@ static bool find_spokes(const solids *s, spokes *out)
     for (int round = 0; round < 2; round++) {
         for (int k = 0; k < s->n; k++) {
             const solid *body = &s->items[k];
-            if (body->kind != SOLID_CLOSED) continue;
+            if (body->kind == SOLID_CONVEX || body->kind == SOLID_SHEET) continue;
             for (int e = body->first_edge; e < body->first_edge + body->n_edges; e++) {
                 const int ends[2] = {s->edges[e].from, s->edges[e].to};
                 for (int end = 0; end < 2; end++) {

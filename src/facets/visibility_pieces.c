@@ -146,7 +146,8 @@ static void set_sheet_view(const cutter *c, view *v, const sheet *s, sheet_view 
                    .lo_x = INFINITY,
                    .hi_x = -INFINITY,
                    .lo_y = INFINITY,
-                   .hi_y = -INFINITY};
+                   .hi_y = -INFINITY,
+                   .lo_z = INFINITY};
     copy3(out->normal, box->normal);
     for (int k = f->first_vertex; k < f->first_vertex + f->n_vertices; k++) {
         double p[3];
@@ -154,6 +155,7 @@ static void set_sheet_view(const cutter *c, view *v, const sheet *s, sheet_view 
         add3(p, v->shift_m[s->component], p);
         box->lo_x = fmin(box->lo_x, p[0]), box->hi_x = fmax(box->hi_x, p[0]);
         box->lo_y = fmin(box->lo_y, p[1]), box->hi_y = fmax(box->hi_y, p[1]);
+        box->lo_z = fmin(box->lo_z, p[2]);
     }
 }
 
@@ -242,9 +244,11 @@ static bool cover_by(cutter *c, const sheet_view *s, int k)
 static bool find_covers(cutter *c, const sheet_view *s)
 {
     polygon_list_clear(&c->covers);
-    const int n = view_candidates(c->plan, s->view, &s->shaft, c->nodes, c->candidates);
-    for (int k = 0; k < n; k++)
-        if (!cover_by(c, s, c->candidates[k])) return false;
+    for (int root = 0; root < c->plan->n_roots; root++) {
+        const int n = view_candidates(c->plan, s->view, &s->shaft, root, c->nodes, c->candidates);
+        for (int k = 0; k < n; k++)
+            if (!cover_by(c, s, c->candidates[k])) return false;
+    }
     return true;
 }
 

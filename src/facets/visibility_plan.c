@@ -2,13 +2,18 @@
 #include "facets/visibility_plan.h"
 
 #include "base/vec.h"
+#include "facets/rays.h"
 #include "facets/visibility_fans.h"
+#include "facets/visibility_rays.h"
 
 #include <stdlib.h>
 
 /* Rounding error of coordinates after a rotation and a shift, over the model's size: 1e-16 for each
  * of a dozen operations, and some room. */
 #define NEAR 1e-14
+/* Facets narrower than this fraction of the model's size are splinters. Foreshortened a
+ * thousandfold, the narrowest that is none is still a hundred times as wide as NEAR. */
+#define SPLINTER 1e-9
 
 /* A facet's plane in the body frame. */
 typedef struct plane {
@@ -146,6 +151,55 @@ static void add_body(planner *p, const solid *s, bool *seen, int *n_corners)
     plan->n_occluders++;
 }
 
+/* The least width of a facet, m: the least, over its edges, of how far its corners rise from them.
+ */
+static double width_of(const planner *p, int facet_index)
+{
+    const facet *f = &p->m->polygons.items[facet_index];
+    const int *ring = p->solids.corners + f->first_vertex;
+    double least = INFINITY;
+    for (int k = 0; k < f->n_vertices; k++) {
+        const double *from = p->solids.vertices[ring[k]];
+        double along[3], inwards[3], d[3], most = 0.0;
+        sub3(p->solids.vertices[ring[(k + 1) % f->n_vertices]], from, along);
+        cross3(f->normal, along, inwards);
+        if (!(unit3(inwards, inwards) > 0.0)) continue;
+        for (int j = 0; j < f->n_vertices; j++) {
+            sub3(p->solids.vertices[ring[j]], from, d);
+            most = fmax(most, dot3(d, inwards));
+        }
+        least = fmin(least, most);
+    }
+    return least;
+}
+
+/* Notes down that `other` lies beyond the edge of a polygon that begins at a vertex. */
+static void set_beyond(const planner *p, int facet_index, int from, int other)
+{
+    const visibility *plan = p->plan;
+    const occluder *o = &plan->occluders[p->own[facet_index]];
+    for (int c = o->first; c < o->first + o->n; c++)
+        if (o->facet == facet_index && plan->corners[c] == from) plan->beyond[c] = other;
+}
+
+/* Splinters do not count: a view may lose them in rounding. */
+static glint_status find_beyond(const planner *p, glint_error *error)
+{
+    bool *wide = malloc((size_t)p->plan->n_facets * sizeof *wide);
+    if (!wide) return error_no_memory(error);
+    for (int k = 0; k < p->plan->n_facets; k++)
+        wide[k] = width_of(p, k) > SPLINTER * p->plan->size_m;
+    for (int c = 0; c < p->plan->n_corners; c++)
+        p->plan->beyond[c] = -1;
+    for (int e = 0; e < p->solids.n_edges; e++) {
+        const solid_edge *edge = &p->solids.edges[e];
+        if (wide[edge->right]) set_beyond(p, edge->left, edge->from, edge->right);
+        if (wide[edge->left]) set_beyond(p, edge->right, edge->to, edge->left);
+    }
+    free(wide);
+    return GLINT_OK;
+}
+
 static glint_status list_occluders(planner *p, glint_error *error)
 {
     visibility *plan = p->plan;
@@ -168,7 +222,7 @@ static glint_status list_occluders(planner *p, glint_error *error)
     for (int k = 0; k < plan->n_occluders; k++)
         if (plan->occluders[k].n > plan->most_corners) plan->most_corners = plan->occluders[k].n;
     free(seen);
-    return GLINT_OK;
+    return find_beyond(p, error);
 }
 
 /* --- groups --- */
@@ -219,20 +273,24 @@ static void box_of_items(const tree_item *items, int n, double box[6])
         join_boxes(box, items[k].box);
 }
 
+static void box_of_vertices(const planner *p, const int *vertices, int n, double box[6])
+{
+    for (int j = 0; j < 3; j++)
+        box[j] = INFINITY, box[3 + j] = -INFINITY;
+    for (int k = 0; k < n; k++) {
+        const double *at = p->vertices[vertices[k]];
+        const double point[6] = {at[0], at[1], at[2], at[0], at[1], at[2]};
+        join_boxes(box, point);
+    }
+}
+
 static void make_items(const planner *p, tree_item *items)
 {
     for (int k = 0; k < p->plan->n_occluders; k++) {
         const occluder *o = &p->plan->occluders[k];
         items[k] = (tree_item){.occluder = k, .group = p->group[o->component]};
         items[k].key = items[k].group;
-        for (int v = 0; v < o->n; v++) {
-            const double *at = p->vertices[p->plan->corners[o->first + v]];
-            const double point[6] = {at[0], at[1], at[2], at[0], at[1], at[2]};
-            if (v == 0)
-                memcpy(items[k].box, point, sizeof point);
-            else
-                join_boxes(items[k].box, point);
-        }
+        box_of_vertices(p, p->plan->corners + o->first, o->n, items[k].box);
     }
 }
 
@@ -295,7 +353,10 @@ static void add_trees(planner *p, tree_item *items, int n)
         next = first + 1;
         while (next < n && items[next].group == items[first].group)
             next++;
-        p->plan->roots[p->plan->n_roots++] = add_node(p, items + first, first, next - first);
+        const int component = p->plan->occluders[items[first].occluder].component;
+        plan_root *root = &p->plan->roots[p->plan->n_roots++];
+        *root = (plan_root){.component = component};
+        root->node = add_node(p, items + first, first, next - first);
     }
 }
 
@@ -470,7 +531,7 @@ static bool node_rises(const planner *p, int facet_index, const plane *face, int
 static bool is_exposed_within(const planner *p, int facet_index, int group)
 {
     for (int k = 0; k < p->plan->n_roots; k++) {
-        const int root = p->plan->roots[k];
+        const int root = p->plan->roots[k].node;
         if (p->node_group[root] == group &&
             node_rises(p, facet_index, &p->planes[facet_index], root))
             return true;
@@ -548,7 +609,129 @@ static glint_status list_exposed(const planner *p, glint_error *error)
         e->offset_m = p->planes[k].offset_m - dot3(p->planes[k].normal, origin_m);
     }
     qsort(plan->exposed, (size_t)n, sizeof *plan->exposed, compare_exposed);
+    for (int k = 0, root = 0; k < n; k++) { /* in the order of the trees, too */
+        const int group = p->group[plan->exposed[k].component];
+        while (p->node_group[plan->roots[root].node] != group)
+            plan->roots[++root].first_exposed = k;
+        plan->exposed[k].root = root;
+        plan->roots[root].n_exposed++;
+    }
     return GLINT_OK;
+}
+
+/* --- bodies that go through facets --- */
+
+/* A growing list of bodies. */
+typedef struct body_list {
+    int *items;
+    int n, capacity;
+} body_list;
+
+static bool append_body(body_list *list, int body)
+{
+    if (list->n == list->capacity) {
+        const int capacity = 2 * list->capacity + 64;
+        int *items = realloc(list->items, (size_t)capacity * sizeof *items);
+        if (!items) return false;
+        list->items = items;
+        list->capacity = capacity;
+    }
+    list->items[list->n++] = body;
+    return true;
+}
+
+static bool boxes_meet(const double a[6], const double b[6], double margin_m)
+{
+    for (int j = 0; j < 3; j++)
+        if (a[j] > b[3 + j] + margin_m || b[j] > a[3 + j] + margin_m) return false;
+    return true;
+}
+
+/* Whether all corners of a body are outside the side of a facet's outline along one of its edges,
+ * by more than what counts as contact. */
+static bool is_beside_edge(const planner *p, const exposed_facet *f, const occluder *o, int edge)
+{
+    const int *ring = p->solids.corners + f->first;
+    const double *from = p->vertices[ring[edge]];
+    double along[3], inwards[3], d[3];
+    sub3(p->vertices[ring[(edge + 1) % f->n]], from, along);
+    cross3(p->planes[f->facet].normal, along, inwards);
+    if (!(unit3(inwards, inwards) > 0.0)) return false;
+    for (int c = o->first; c < o->first + o->n; c++) {
+        sub3(p->vertices[p->plan->corners[c]], from, d);
+        if (dot3(d, inwards) > -VISIBILITY_CONTACT * p->plan->size_m) return false;
+    }
+    return true;
+}
+
+/* Whether all corners of a facet are outside a face of a body. */
+static bool is_before_face(const planner *p, const exposed_facet *f, int face)
+{
+    const plane *own = &p->planes[face];
+    for (int c = f->first; c < f->first + f->n; c++) {
+        const double *at = p->vertices[p->solids.corners[c]];
+        if (dot3(own->normal, at) - own->offset_m < own->contact_m) return false;
+    }
+    return true;
+}
+
+/* Whether a body may go through a facet; false only where it certainly does not. */
+static bool may_pierce(const planner *p, const exposed_facet *f, const occluder *o)
+{
+    const plane *own = &p->planes[f->facet];
+    double least_m = INFINITY;
+    for (int c = o->first; c < o->first + o->n; c++) {
+        const double *at = p->vertices[p->plan->corners[c]];
+        least_m = fmin(least_m, dot3(own->normal, at) - own->offset_m);
+    }
+    if (least_m > own->contact_m) return false;
+    for (int edge = 0; edge < f->n; edge++)
+        if (is_beside_edge(p, f, o, edge)) return false;
+    for (int e = o->first_edge; e < o->first_edge + o->n_edges; e++)
+        if (is_before_face(p, f, p->solids.edges[e].left) ||
+            is_before_face(p, f, p->solids.edges[e].right))
+            return false;
+    return true;
+}
+
+/* Appends the bodies below a node that may go through a facet; box: the facet's. */
+static bool list_piercing(const planner *p, const exposed_facet *f, const double box[6], int k,
+                          body_list *list)
+{
+    const visibility *plan = p->plan;
+    const plan_node *node = &plan->nodes[k];
+    bool ok = true;
+    if (!boxes_meet(box, p->box[k], VISIBILITY_CONTACT * plan->size_m)) return true;
+    for (int j = 0; j < node->n && ok; j++) {
+        const int child = node->child[j];
+        if (!node->leaf)
+            ok = list_piercing(p, f, box, child, list);
+        else if (plan->occluders[child].facet < 0 && child != f->own &&
+                 may_pierce(p, f, &plan->occluders[child]))
+            ok = append_body(list, child);
+    }
+    return ok;
+}
+
+static glint_status find_piercing(const planner *p, glint_error *error)
+{
+    visibility *plan = p->plan;
+    body_list list = {0};
+    bool ok = true;
+    for (int k = 0; k < plan->n_exposed && ok; k++) {
+        exposed_facet *f = &plan->exposed[k];
+        double box[6];
+        box_of_vertices(p, p->solids.corners + f->first, f->n, box);
+        f->first_piercing = list.n;
+        ok = list_piercing(p, f, box, plan->roots[f->root].node, &list);
+        f->n_piercing = list.n - f->first_piercing;
+    }
+    plan->piercing = list.items;
+    for (int c = 0; c < plan->n_components; c++)
+        for (int root = 0; root < plan->n_roots; root++)
+            if (p->node_group[plan->roots[root].node] == p->group[c])
+                plan->component_root[c] = root;
+    return ok ? GLINT_OK : error_no_memory(error);
 }
 
 /* --- vertices in order --- */
@@ -635,13 +818,15 @@ static bool allocate_plan(visibility *plan)
     plan->rings = malloc(n_corners * sizeof *plan->rings);
     plan->occluders = malloc(n_facets * sizeof *plan->occluders);
     plan->corners = malloc(n_corners * sizeof *plan->corners);
+    plan->beyond = malloc(n_corners * sizeof *plan->beyond);
     plan->edges = malloc(n_corners * sizeof *plan->edges);
     plan->first_blade = calloc((size_t)plan->n_vertices + 1, sizeof *plan->first_blade);
     plan->nodes = malloc(2 * n_facets * sizeof *plan->nodes);
+    plan->component_root = calloc(n_components, sizeof *plan->component_root);
     plan->roots = malloc((n_components + 1) * sizeof *plan->roots);
     return plan->vertices && plan->first_vertex && plan->normals && plan->first_facet &&
-           plan->is_exposed && plan->rings && plan->occluders && plan->corners && plan->edges &&
-           plan->first_blade && plan->nodes && plan->roots;
+           plan->is_exposed && plan->rings && plan->occluders && plan->corners && plan->beyond &&
+           plan->edges && plan->first_blade && plan->nodes && plan->component_root && plan->roots;
 }
 
 static bool allocate(planner *p)
@@ -679,6 +864,7 @@ static glint_status make_plan(planner *p, glint_error *error)
     glint_status status = start_plan(p, error);
     if (!status) status = find_exposed(p, error);
     if (!status) status = list_exposed(p, error);
+    if (!status) status = find_piercing(p, error);
     if (!status) status = renumber(p, error);
     return status;
 }
@@ -738,6 +924,7 @@ glint_status visibility_count_exposed(const model *m, const visibility_component
 void visibility_free(visibility *plan)
 {
     if (!plan) return;
+    ray_plan_free(plan->rays, plan->n_components);
     free(plan->vertices);
     free(plan->first_vertex);
     free(plan->normals);
@@ -747,12 +934,27 @@ void visibility_free(visibility *plan)
     free(plan->rings);
     free(plan->occluders);
     free(plan->corners);
+    free(plan->beyond);
     free(plan->edges);
+    free(plan->component_root);
+    free(plan->piercing);
     free(plan->first_blade);
     free(plan->blades);
     free(plan->nodes);
     free(plan->roots);
     free(plan);
+}
+
+glint_status visibility_use_rays(visibility *plan, const model *m, int rays_per_facet,
+                                 glint_error *error)
+{
+    ray_plan_free(plan->rays, plan->n_components);
+    return ray_plan_make(plan, m, rays_per_facet, &plan->rays, error);
+}
+
+bool visibility_has_rays(void)
+{
+    return rays_are_built();
 }
 
 bool visibility_is_trivial(const visibility *plan)

@@ -22,10 +22,13 @@ typedef struct occluder {
 /* A facet that something can come before at some time. Component frame. */
 typedef struct exposed_facet {
     int facet, component;
+    int root;                   /* of the tree that its group has */
     int own;                    /* the occluder that it is part of */
     int first, n;               /* its corners, in plan.rings */
     double normal[3], offset_m; /* unit; normal . point of the plane */
     double contact_m;           /* what rises no higher over the plane lies in it */
+    int first_piercing,
+        n_piercing; /* in plan.piercing: bodies of its group that may go through it */
 } exposed_facet;
 
 /* A facet of those around a vertex that form a closed fan (visibility_fans.h). */
@@ -44,6 +47,13 @@ typedef struct plan_node {
     int child[NODE_CHILDREN]; /* indices of nodes or occluders */
 } plan_node;
 
+/* The tree of a group. */
+typedef struct plan_root {
+    int node;
+    int component;                /* one of the group */
+    int first_exposed, n_exposed; /* facets of the group, in plan.exposed */
+} plan_root;
+
 /* Vertices, occluders and exposed facets are in the order of the trees: what is near in space is
  * near in memory. */
 struct visibility {
@@ -57,15 +67,20 @@ struct visibility {
     int *rings;             /* owned; n_corners vertices: corners of the facets */
     occluder *occluders;    /* owned */
     int *corners;           /* owned; n_corners vertices: corners of the occluders */
+    int *beyond;            /* owned; n_corners: of a polygon, the facet beyond the edge from this
+                               corner to the next; -1 where there is none, or a splinter */
     solid_edge *edges;      /* owned; of the bodies */
+    int *component_root;    /* owned; of each component: the tree of its group */
+    int *piercing;          /* owned; bodies that exposed facets may meet */
     int *first_blade;       /* owned; n_vertices + 1 */
     fan_blade *blades;      /* owned; those of a vertex side by side; none where there is no fan */
     plan_node *nodes;       /* owned */
-    int *roots;             /* owned */
+    plan_root *roots;       /* owned */
     double size_m;          /* greatest distance from the body's origin */
     double near_m;          /* rounding error of coordinates, for polygon.h */
     int most_corners;       /* of an occluder or a facet */
     int most_edges;         /* of a body */
+    struct ray_plan *rays;  /* owned; NULL: fractions are exact */
 };
 
 #endif

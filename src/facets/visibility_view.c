@@ -52,8 +52,8 @@ static void basis_along(const double z[3], double basis[9])
 }
 
 /* out = axis . vector for n vectors. */
-LANES_CLONES static void project(const double axis[3], const double *x, const double *y,
-                                 const double *z, int n, double *out)
+CLONES static void project(const double axis[3], const double *x, const double *y, const double *z,
+                           int n, double *out)
 {
     const double a = axis[0], b = axis[1], c = axis[2];
     for (int k = 0; k < n; k++)
@@ -102,37 +102,37 @@ static inline void take_in(box3 *box, const double p[3])
 
 /* Copies the corners of a polygon that counts in this view: a facet of a closed body only where it
  * is turned to the one who looks, and none where it is edge-on, since then it hides nothing. */
-static box3 place_polygon(const visibility *plan, const occluder *o, view *v, view_ring *ring)
+static void place_polygon(const visibility *plan, const occluder *o, view *v, view_ring *ring)
 {
-    const double cosine = v->cosine[o->facet];
+    const double cosine = v->cosine[o->facet], least = BRDF_EDGE - v->width;
     const bool backwards = cosine < 0.0;
     const int *corners = plan->corners + o->first;
-    box3 box = EMPTY;
     *ring = (view_ring){o->first, 0};
-    if (!(cosine > BRDF_EDGE || (o->both_sides && cosine < -BRDF_EDGE))) return box;
+    if (!(cosine > least || (o->both_sides && cosine < -least))) return;
     ring->n = o->n;
-    for (int k = 0; k < o->n; k++) {
-        const double *p = v->vertices[corners[backwards ? o->n - 1 - k : k]];
-        copy3(p, v->points[o->first + k]);
-        take_in(&box, p);
-    }
-    return box;
+    for (int k = 0; k < o->n; k++)
+        copy3(v->vertices[corners[backwards ? o->n - 1 - k : k]], v->points[o->first + k]);
 }
 
-static box3 place_body(const visibility *plan, const occluder *o, const view *v, view_ring *ring)
+static void place_occluders(const visibility *plan, view *v)
 {
-    box3 box = EMPTY;
-    *ring = (view_ring){o->first, VIEW_NOT_TRACED};
-    for (int k = o->first; k < o->first + o->n; k++)
-        take_in(&box, v->vertices[plan->corners[k]]);
-    return box;
+    for (int k = 0; k < plan->n_occluders; k++) {
+        const occluder *o = &plan->occluders[k];
+        if (o->facet < 0)
+            v->rings[k] = (view_ring){o->first, VIEW_NOT_TRACED};
+        else
+            place_polygon(plan, o, v, &v->rings[k]);
+    }
 }
 
-static box3 place_occluder(const visibility *plan, view *v, int k)
+static box3 box_of_occluder(const visibility *plan, const view *v, int k)
 {
     const occluder *o = &plan->occluders[k];
-    return o->facet < 0 ? place_body(plan, o, v, &v->rings[k])
-                        : place_polygon(plan, o, v, &v->rings[k]);
+    box3 box = EMPTY;
+    if (v->rings[k].n == 0) return box;
+    for (int c = o->first; c < o->first + o->n; c++)
+        take_in(&box, v->vertices[plan->corners[c]]);
+    return box;
 }
 
 static box3 box_of_node(const view_node *node)
@@ -165,23 +165,31 @@ static void bound(const visibility *plan, view *v)
         for (int j = 0; j < NODE_CHILDREN; j++) {
             box3 box = EMPTY;
             if (j < node->n)
-                box = node->leaf ? place_occluder(plan, v, node->child[j])
+                box = node->leaf ? box_of_occluder(plan, v, node->child[j])
                                  : box_of_node(&v->nodes[node->child[j]]);
             put_box(&v->nodes[k], j, &box, node->leaf ? margin_m : 0.0);
         }
     }
 }
 
+void view_set_wide(const visibility *plan, const visibility_pose *poses,
+                   const double towards_body[3], double sine, view *v)
+{
+    copy3(towards_body, v->towards_body);
+    v->width = sine;
+    basis_along(towards_body, v->basis);
+    for (int c = 0; c < plan->n_components; c++)
+        place_component(plan, &poses[c], c, v);
+    place_occluders(plan, v);
+    v->has_boxes = false;
+    v->valid = true;
+}
+
 void view_set(const visibility *plan, const visibility_pose *poses, const double towards_body[3],
               view *v)
 {
     if (v->valid && memcmp(v->towards_body, towards_body, sizeof v->towards_body) == 0) return;
-    copy3(towards_body, v->towards_body);
-    basis_along(towards_body, v->basis);
-    for (int c = 0; c < plan->n_components; c++)
-        place_component(plan, &poses[c], c, v);
-    bound(plan, v);
-    v->valid = true;
+    view_set_wide(plan, poses, towards_body, 0.0, v);
 }
 
 /* --- outlines of bodies --- */
@@ -216,15 +224,44 @@ view_ring view_outline(const visibility *plan, view *v, int k)
 
 /* --- the shaft before a facet --- */
 
+void shaft_make(const visibility *plan, const view *v, const exposed_facet *f, double slope,
+                shaft *s)
+{
+    const int *ring = plan->rings + f->first;
+    double a[SHAFT_SIDES] = {0}, b[SHAFT_SIDES] = {0}, c[SHAFT_SIDES] = {1, 1, 1, 1, 1, 1, 1, 1};
+    mat_vec(v->axes[f->component], f->normal, s->normal);
+    s->offset_m = f->offset_m + dot3(s->normal, v->shift_m[f->component]);
+    s->contact_m = f->contact_m;
+    s->slope = slope;
+    s->lo_x = s->lo_y = s->lo_z = INFINITY, s->hi_x = s->hi_y = -INFINITY;
+    for (int k = 0; k < f->n; k++) {
+        const double *p = v->vertices[ring[k]], *q = v->vertices[ring[k + 1 < f->n ? k + 1 : 0]];
+        const double x = p[0], y = p[1], dx = q[0] - x, dy = q[1] - y;
+        s->lo_x = lower(s->lo_x, x), s->hi_x = higher(s->hi_x, x);
+        s->lo_y = lower(s->lo_y, y), s->hi_y = higher(s->hi_y, y);
+        s->lo_z = lower(s->lo_z, p[2]);
+        if (k >= SHAFT_SIDES) continue;
+        a[k] = -dy, b[k] = dx;
+        c[k] = dy * x - dx * y - plan->near_m * (fabs(dx) + fabs(dy));
+    }
+    s->n_fours = f->n > 4 ? 2 : 1;
+    for (int k = 0; k < s->n_fours; k++) {
+        const int j = 4 * k;
+        s->a[k] = (double4){a[j], a[j + 1], a[j + 2], a[j + 3]};
+        s->b[k] = (double4){b[j], b[j + 1], b[j + 2], b[j + 3]};
+        s->c[k] = (double4){c[j], c[j + 1], c[j + 2], c[j + 3]};
+    }
+}
+
 /* The shaft in floats; `high_x`, `high_y`: which ends of a box rise highest over the facet's plane.
  */
 typedef struct float_shaft {
-    float lo_x, hi_x, lo_y, hi_y, a, b, c, d;
+    float lo_x, hi_x, lo_y, hi_y, lo_z, slope, a, b, c, d;
     bool high_x, high_y;
 } float_shaft;
 
-LANES_CLONES static int walk(const plan_node *nodes, const view_node *boxes, const float_shaft *s,
-                             int root, int *stack, int *out)
+CLONES static int walk(const plan_node *nodes, const view_node *boxes, const float_shaft *s,
+                       int root, int *stack, int *out)
 {
     int n = 0, n_stack = 1;
     stack[0] = root;
@@ -233,9 +270,10 @@ LANES_CLONES static int walk(const plan_node *nodes, const view_node *boxes, con
         const plan_node *node = &nodes[k];
         const view_node *box = &boxes[k];
         const float8 x = s->high_x ? box->hi_x : box->lo_x, y = s->high_y ? box->hi_y : box->lo_y;
-        const int8 marks = (box->lo_x < s->hi_x) & (box->hi_x > s->lo_x) & (box->lo_y < s->hi_y) &
-                           (box->hi_y > s->lo_y) &
-                           (s->a * x + s->b * y + s->c * box->hi_z + s->d > 0.0f);
+        const float8 height = box->hi_z - s->lo_z, margin = s->slope * height;
+        const int8 marks = (box->lo_x - margin < s->hi_x) & (box->hi_x + margin > s->lo_x) &
+                           (box->lo_y - margin < s->hi_y) & (box->hi_y + margin > s->lo_y) &
+                           (height > 0.0f) & (s->a * x + s->b * y + s->c * box->hi_z + s->d > 0.0f);
         int *list = node->leaf ? out + n : stack + n_stack, count = 0;
         for (int j = 0; j < NODE_CHILDREN;
              j++) { /* without branches, that would be guessed wrong */
@@ -253,22 +291,27 @@ LANES_CLONES static int walk(const plan_node *nodes, const view_node *boxes, con
     return n;
 }
 
-int view_candidates(const visibility *plan, const view *v, const shaft *s, int *nodes, int *out)
+int view_candidates(const visibility *plan, view *v, const shaft *s, int root, int *nodes, int *out)
 {
     const double margin_m = FLOAT_MARGIN * plan->size_m;
-    const float_shaft rough = {.lo_x = (float)(s->lo_x - margin_m),
-                               .hi_x = (float)(s->hi_x + margin_m),
-                               .lo_y = (float)(s->lo_y - margin_m),
-                               .hi_y = (float)(s->hi_y + margin_m),
-                               .a = (float)s->normal[0],
-                               .b = (float)s->normal[1],
-                               .c = (float)s->normal[2],
-                               .d = (float)(margin_m - s->offset_m - s->contact_m),
-                               .high_x = s->normal[0] > 0.0,
-                               .high_y = s->normal[1] > 0.0};
-    int n = 0;
-    for (int k = 0; k < plan->n_roots; k++)
-        n += walk(plan->nodes, v->nodes, &rough, plan->roots[k], nodes, out + n);
+    float_shaft rough = {.lo_x = (float)(s->lo_x - margin_m),
+                         .hi_x = (float)(s->hi_x + margin_m),
+                         .lo_y = (float)(s->lo_y - margin_m),
+                         .hi_y = (float)(s->hi_y + margin_m),
+                         .lo_z = (float)(s->lo_z - margin_m),
+                         .slope = (float)s->slope,
+                         .a = (float)s->normal[0],
+                         .b = (float)s->normal[1],
+                         .c = (float)s->normal[2],
+                         .d = (float)(margin_m - s->offset_m - s->contact_m),
+                         .high_x = s->normal[0] > 0.0,
+                         .high_y = s->normal[1] > 0.0};
+    /* Of a plane that is seen from behind, a box's highest point is not known: anything may be over
+     * it. */
+    if (s->normal[2] < 0.0) rough.a = rough.b = rough.c = 0.0f, rough.d = 1.0f;
+    if (!v->has_boxes) bound(plan, v);
+    v->has_boxes = true;
+    const int n = walk(plan->nodes, v->nodes, &rough, plan->roots[root].node, nodes, out);
     for (int k = 0; k < n; k++) {
         const double *first = v->points[v->rings[out[k]].first];
         __builtin_prefetch(first);
@@ -277,7 +320,7 @@ int view_candidates(const visibility *plan, const view *v, const shaft *s, int *
     return n;
 }
 
-LANES_CLONES shaft_relation view_relate(const shaft *s, const double (*points)[3], int n)
+CLONES shaft_relation view_relate(const shaft *s, const double (*points)[3], int n)
 {
     double lowest = INFINITY, highest = -INFINITY;
     for (int k = 0; k < n; k++) {

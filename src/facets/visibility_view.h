@@ -24,8 +24,9 @@ typedef struct view_ring {
 enum { VIEW_NOT_TRACED = -1 };
 
 typedef struct view {
-    bool valid;
+    bool valid, has_boxes;
     double towards_body[3]; /* unit; that the following was computed for */
+    double width;           /* sine of the angle by which the view may be turned; 0 */
     double basis[9];        /* rows: x, y, z axes in the body frame */
     double (*axes)[9];      /* owned; of each component: rows: x, y, z axes in its frame */
     double (*shift_m)[3];   /* owned; where its origin lies */
@@ -45,6 +46,11 @@ void view_free(view *v);
 void view_set(const visibility *plan, const visibility_pose *poses, const double towards_body[3],
               view *v);
 
+/* The same for all directions that lie within an angle of that one: polygons count that may be
+ * turned to any of them. sine: of the angle, 0 to 1. Outlines are those along the middle. */
+void view_set_wide(const visibility *plan, const visibility_pose *poses,
+                   const double towards_body[3], double sine, view *v);
+
 /* The outline of occluder k, which is traced if need be; empty where rounding makes a mess of a
  * body's facets that are all but edge-on. */
 view_ring view_outline(const visibility *plan, view *v, int k);
@@ -56,14 +62,21 @@ enum { SHAFT_SIDES = 8 };
  * first eight edges; sides that are not used let everything through). */
 typedef struct shaft {
     double normal[3], offset_m, contact_m; /* what rises no higher than that counts as not above */
+    double slope;                          /* by which it widens with the height above lo_z */
     double4 a[SHAFT_SIDES / 4], b[SHAFT_SIDES / 4], c[SHAFT_SIDES / 4];
     int n_fours; /* of sides */
-    double lo_x, hi_x, lo_y, hi_y;
+    double lo_x, hi_x, lo_y, hi_y, lo_z;
 } shaft;
 
-/* Lists occluders whose boxes reach into the shaft; returns how many. nodes: scratch for
- * plan.n_nodes; out: room for plan.n_occluders. */
-int view_candidates(const visibility *plan, const view *v, const shaft *s, int *nodes, int *out);
+/* The shaft before a facet; a side lets through what is more than a rounding error inside. slope:
+ * 0, or the tangent of an angle, for all directions within that of the view's. */
+void shaft_make(const visibility *plan, const view *v, const exposed_facet *f, double slope,
+                shaft *out);
+
+/* Lists the occluders of one tree whose boxes reach into the shaft; returns how many. nodes:
+ * scratch for plan.n_nodes + NODE_CHILDREN; out: room for plan.n_occluders + NODE_CHILDREN. */
+int view_candidates(const visibility *plan, view *v, const shaft *s, int root, int *nodes,
+                    int *out);
 
 /* How n points lie to the shaft. */
 typedef struct shaft_relation {

@@ -23,14 +23,16 @@ static void report_time(const glint_scenario *s, text *t)
     utc_write(&end, b);
     text_printf(t, "time        %.19sZ to %.19sZ, every %g s: %lld rows\n", a, b, s->step_s,
                 (long long)s->n_steps);
+    if (s->n_observers > 1)
+        text_printf(t, "            for each of %d observers\n", s->n_observers);
     if (s->clock.n_leaps)
         text_printf(t, "            with %d leap second%s on the way\n", s->clock.n_leaps,
                     s->clock.n_leaps > 1 ? "s" : "");
-    text_printf(t,
-                "observer    %s%slatitude %.6g deg, longitude %.6g deg, height %g m; nothing below "
-                "%g deg\n",
-                s->site_name, s->site_name[0] ? ": " : "", s->site.latitude / DEG,
-                s->site.longitude / DEG, s->site.height_m, s->min_elevation / DEG);
+    for (int i = 0; i < s->n_observers; i++) {
+        char *who = fact_observer(s, &s->observers[i]);
+        text_printf(t, "observer    %s\n", who ? who : "");
+        free(who);
+    }
     char *line = fact_orbit(s, &s->orbit);
     text_printf(t, "orbit       %s\n", line ? line : "");
     free(line);
@@ -248,7 +250,9 @@ static void report_run(const glint_scenario *s, text *t)
     for (size_t i = 0; i < facts.n; i++)
         if (!string_equal(facts.items[i].key, "glint_version") &&
             !string_equal(facts.items[i].key, "title") &&
-            !string_equal(facts.items[i].key, "orbit"))
+            !string_equal(facts.items[i].key, "orbit") &&
+            !string_equal(facts.items[i].key, "observer") &&
+            !string_equal(facts.items[i].key, "observers"))
             text_printf(t, "%-23s %s\n", facts.items[i].key, facts.items[i].value);
     fact_list_free(&facts);
     column_set columns;

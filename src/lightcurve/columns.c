@@ -10,6 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool is_text(column_kind kind)
+{
+    return kind == COLUMN_OBSERVER || kind == COLUMN_UTC || kind == COLUMN_FLAGS;
+}
+
 /* Adds a column whose name is `name` and `rest` put together. */
 static bool add(column_set *set, column_kind kind, int index, const char *name, const char *rest,
                 const char *unit, const char *description)
@@ -22,8 +27,7 @@ static bool add(column_set *set, column_kind kind, int index, const char *name, 
     set->names[n] = whole;
     set->kinds[n] = kind;
     set->indices[n] = index;
-    set->columns[n] =
-        (glint_column){whole, unit, description, kind == COLUMN_UTC || kind == COLUMN_FLAGS};
+    set->columns[n] = (glint_column){whole, unit, description, is_text(kind)};
     set->n++;
     return true;
 }
@@ -70,15 +74,49 @@ static bool add_telescope(const glint_scenario *s, column_set *set)
                        "of the satellite against the stars, from the observer");
 }
 
+/* Sites among the observers, and those that have refraction. */
+static void count_sites(const glint_scenario *s, int *sites, int *refracted)
+{
+    *sites = *refracted = 0;
+    for (int i = 0; i < s->n_observers; i++) {
+        *sites += s->observers[i].kind == OBSERVER_SITE;
+        *refracted += s->observers[i].kind == OBSERVER_SITE && s->observers[i].air.on;
+    }
+}
+
 static bool add_site(const glint_scenario *s, column_set *set)
 {
+    int sites, refracted;
+    count_sites(s, &sites, &refracted);
+    if (sites == 0) return true;
     return add(set, COLUMN_AZIMUTH, 0, "azimuth_deg", "", "deg", "from north through east") &&
-           add(set, COLUMN_ELEVATION, 0, "elevation_deg", "", "deg", "geometric") &&
+           add(set, COLUMN_ELEVATION, 0, "elevation_deg", "", "deg",
+               refracted == 0       ? "geometric"
+               : refracted == sites ? "apparent: with refraction"
+                                    : "geometric; apparent for the sites that have refraction") &&
            add(set, COLUMN_SUN_ELEVATION, 0, "sun_elevation_deg", "", "deg",
                "of the Sun at the site, geometric") &&
            add(set, COLUMN_AIRMASS, 0, "airmass", "", "",
                s->airmass == AIRMASS_PICKERING ? "Pickering 2002; empty below the horizon"
                                                : "Kasten and Young 1989; empty below the horizon");
+}
+
+static bool add_moon(const glint_scenario *s, column_set *set)
+{
+    int sites, refracted;
+    count_sites(s, &sites, &refracted);
+    if (!s->moon_columns) return true;
+    bool good = true;
+    if (sites > 0)
+        good = add(set, COLUMN_MOON_AZIMUTH, 0, "moon_azimuth_deg", "", "deg",
+                   "of the Moon at the site, from north through east") &&
+               add(set, COLUMN_MOON_ELEVATION, 0, "moon_elevation_deg", "", "deg",
+                   "of the Moon's centre at the site, geometric");
+    return good &&
+           add(set, COLUMN_MOON_SEPARATION, 0, "moon_separation_deg", "", "deg",
+               "between satellite and Moon, from the observer") &&
+           add(set, COLUMN_MOON_ILLUMINATED, 0, "moon_illuminated", "", "",
+               "fraction of the Moon's disc, from the observer: 0 is new, 1 full");
 }
 
 static bool add_shares(const glint_scenario *s, column_set *set)
@@ -100,7 +138,7 @@ glint_status column_set_make(const glint_scenario *s, column_set *set, glint_err
 {
     const model *m = &s->satellite.model;
     const size_t most =
-        16 + 6 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components;
+        24 + 6 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components;
     *set = (column_set){.s = s,
                         .columns = calloc(most, sizeof *set->columns),
                         .kinds = calloc(most, sizeof *set->kinds),
@@ -109,6 +147,8 @@ glint_status column_set_make(const glint_scenario *s, column_set *set, glint_err
     bool good = set->columns && set->kinds && set->indices && set->names;
     if (good && !s->has_geometry)
         good = add(set, COLUMN_UTC, 0, "utc", "", "", "UTC of reception at the observer");
+    if (good && s->n_observers > 1)
+        good = add(set, COLUMN_OBSERVER, 0, "observer", "", "", "name of the observer");
     good = good && add(set, COLUMN_T, 0, "t_s", "", "s", "TT seconds from the start") &&
            add_bands(s, set) && add_standard(s, set) && add_telescope(s, set) &&
            add(set, COLUMN_RANGE, 0, "range_km", "", "km", "observer to satellite") &&
@@ -117,7 +157,7 @@ glint_status column_set_make(const glint_scenario *s, column_set *set, glint_err
            add(set, COLUMN_SUNLIT, 0, "sunlit_fraction", "", "",
                "visible part of the solar disc, seen from the satellite") &&
            add(set, COLUMN_FLAGS, 0, "flags", "", "", "why the row is faint or dark") &&
-           (s->has_geometry || add_site(s, set)) && add_shares(s, set);
+           add_site(s, set) && add_moon(s, set) && add_shares(s, set);
     if (good) return GLINT_OK;
     column_set_free(set);
     return error_no_memory(error);
@@ -152,10 +192,20 @@ static bool noise_value(const column_set *set, const glint_row *row, size_t colu
     return isfinite(*value) && snr > 0;
 }
 
+/* What only a site sees, rad. */
+static double site_angle(column_kind kind, const glint_row *row)
+{
+    if (kind == COLUMN_AZIMUTH) return row->azimuth_rad;
+    if (kind == COLUMN_ELEVATION) return row->elevation_rad;
+    if (kind == COLUMN_SUN_ELEVATION) return row->sun_elevation_rad;
+    return kind == COLUMN_MOON_AZIMUTH ? row->moon_azimuth_rad : row->moon_elevation_rad;
+}
+
 bool column_value(const column_set *set, const glint_row *row, size_t column, double *value)
 {
     const int i = set->indices[column];
     switch (set->kinds[column]) {
+    case COLUMN_OBSERVER:
     case COLUMN_UTC:
     case COLUMN_FLAGS:
         return false;
@@ -188,17 +238,21 @@ bool column_value(const column_set *set, const glint_row *row, size_t column, do
         *value = row->sunlit_fraction;
         return true;
     case COLUMN_AZIMUTH:
-        *value = row->azimuth_rad / DEG;
-        return true;
     case COLUMN_ELEVATION:
-        *value = row->elevation_rad / DEG;
-        return true;
     case COLUMN_SUN_ELEVATION:
-        *value = row->sun_elevation_rad / DEG;
-        return true;
+    case COLUMN_MOON_AZIMUTH:
+    case COLUMN_MOON_ELEVATION:
+        *value = site_angle(set->kinds[column], row) / DEG;
+        return row->has_site;
     case COLUMN_AIRMASS:
         *value = row->airmass;
         return row->airmass > 0;
+    case COLUMN_MOON_SEPARATION:
+        *value = row->moon_separation_rad / DEG;
+        return true;
+    case COLUMN_MOON_ILLUMINATED:
+        *value = row->moon_illuminated;
+        return true;
     case COLUMN_SHARE_MATERIAL:
         *value = row->share_material[i];
         return row->flux_ratio[0] > 0;
@@ -214,11 +268,10 @@ static size_t write_flags(unsigned flags, char *out)
     static const struct {
         unsigned flag;
         const char *name;
-    } NAMES[] = {{GLINT_BELOW_HORIZON, "below-horizon"},
-                 {GLINT_UMBRA, "umbra"},
-                 {GLINT_PENUMBRA, "penumbra"},
-                 {GLINT_DARK, "dark"},
-                 {GLINT_SITE_DARK, "site-dark"}};
+    } NAMES[] = {{GLINT_BELOW_HORIZON, "below-horizon"}, {GLINT_UMBRA, "umbra"},
+                 {GLINT_PENUMBRA, "penumbra"},           {GLINT_DARK, "dark"},
+                 {GLINT_SITE_DARK, "site-dark"},         {GLINT_BLOCKED, "blocked"},
+                 {GLINT_MOON_SHADOW, "moon-shadow"}};
     size_t n = 0;
     for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; k++) {
         if (!(flags & NAMES[k].flag)) continue;
@@ -231,6 +284,14 @@ static size_t write_flags(unsigned flags, char *out)
     return n;
 }
 
+/* A name without double quotes; in quotes where the table's reader needs them. */
+static size_t write_name(const char *name, char out[GLINT_CELL_SIZE])
+{
+    const char *quote = strchr(name, ',') ? "\"" : "";
+    const int n = snprintf(out, GLINT_CELL_SIZE, "%s%s%s", quote, name, quote);
+    return n < 0 ? 0 : n < GLINT_CELL_SIZE ? (size_t)n : GLINT_CELL_SIZE - 1;
+}
+
 size_t column_text(const column_set *set, const glint_row *row, size_t column,
                    char out[GLINT_CELL_SIZE])
 {
@@ -240,6 +301,7 @@ size_t column_text(const column_set *set, const glint_row *row, size_t column,
         utc_write(&row->utc, out);
         return UTC_TEXT_SIZE - 1;
     }
+    if (set->kinds[column] == COLUMN_OBSERVER) return write_name(row->observer, out);
     if (set->kinds[column] == COLUMN_FLAGS) return write_flags(row->flags, out);
     if (column_value(set, row, column, &value)) n = number_format(value, out);
     out[n] = '\0';

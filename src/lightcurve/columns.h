@@ -6,6 +6,7 @@
 
 /* What a column shows. */
 typedef enum column_kind {
+    COLUMN_OBSERVER,
     COLUMN_UTC,
     COLUMN_T,
     COLUMN_MAGNITUDE, /* index: band */
@@ -23,6 +24,10 @@ typedef enum column_kind {
     COLUMN_ELEVATION,
     COLUMN_SUN_ELEVATION,
     COLUMN_AIRMASS,
+    COLUMN_MOON_AZIMUTH,
+    COLUMN_MOON_ELEVATION,
+    COLUMN_MOON_SEPARATION,
+    COLUMN_MOON_ILLUMINATED,
     COLUMN_SHARE_MATERIAL, /* index: material */
     COLUMN_SHARE_COMPONENT /* index: component */
 } column_kind;

@@ -29,7 +29,7 @@ struct glint_curve {
     frame_grid *grid;     /* owned; covers grid_from_s to grid_to_s */
     double grid_from_s, grid_to_s;
     size_t block;             /* rows of a block */
-    int64_t next;             /* first step of the next block */
+    int64_t next;             /* first row of the next block: observer after observer */
     photometry_rows rows;     /* owned; block */
     glint_row *chosen;        /* owned; block */
     coverage watched;         /* measured materials */
@@ -94,6 +94,8 @@ glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint
     c->s = scenario;
     c->n_threads = threads > 0 ? threads : omp_get_num_procs();
     if (asks_for_height(scenario)) c->wanted |= GEOMETRY_HEIGHT;
+    if (scenario->moon_columns) c->wanted |= GEOMETRY_MOON;
+    if (scenario->has_telescope) c->wanted |= GEOMETRY_RATE;
     glint_error error = {0};
     glint_status status = column_set_make(scenario, &c->columns, &error);
     facts_of_run(scenario, &c->facts);
@@ -134,9 +136,20 @@ void glint_curve_close(glint_curve *c)
     free(c);
 }
 
+/* At least 1: given directions belong to one observer. */
+static int64_t count_observers(const glint_scenario *s)
+{
+    return s->n_observers > 1 ? s->n_observers : 1;
+}
+
+size_t glint_curve_observers(const glint_curve *c)
+{
+    return (size_t)count_observers(c->s);
+}
+
 int64_t glint_curve_length(const glint_curve *c)
 {
-    return c->s->n_steps;
+    return c->s->n_steps * count_observers(c->s);
 }
 
 double glint_curve_step_s(const glint_curve *c)
@@ -146,13 +159,13 @@ double glint_curve_step_s(const glint_curve *c)
 
 /* Has the frames of the block's times at hand. The grid is laid out for a few days at once, since
  * its nodes are dear. */
-static glint_status cover_block(glint_curve *c, int64_t n, glint_error *error)
+static glint_status cover_block(glint_curve *c, int64_t first, int64_t n, glint_error *error)
 {
     static const double AHEAD_S = 4 * DAY_S;
     if (c->s->has_geometry) return GLINT_OK;
     const double step_s = c->s->step_s, half_s = 0.5 * c->s->exposure_s;
-    const double from_s = (double)c->next * step_s - half_s;
-    const double to_s = (double)(c->next + n - 1) * step_s + half_s;
+    const double from_s = (double)first * step_s - half_s;
+    const double to_s = (double)(first + n - 1) * step_s + half_s;
     if (c->grid && from_s >= c->grid_from_s && to_s <= c->grid_to_s) return GLINT_OK;
     const double end_s = (double)(c->s->n_steps - 1) * step_s + half_s;
     double reach_s = from_s + AHEAD_S < end_s ? from_s + AHEAD_S : end_s;
@@ -188,7 +201,7 @@ static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, 
 
 /* All tiles of the block, over the threads; tiles are the same for any number of them. The error of
  * the earliest tile wins. */
-static glint_status compute_block(glint_curve *c, int64_t n, glint_error *error)
+static glint_status compute_block(glint_curve *c, int64_t first, int64_t n, glint_error *error)
 {
     const int n_tiles = (int)((n + TILE - 1) / TILE);
     int failed_tile = n_tiles;
@@ -199,7 +212,7 @@ static glint_status compute_block(glint_curve *c, int64_t n, glint_error *error)
         const int64_t at = (int64_t)tile * TILE;
         const int rows = n - at < TILE ? (int)(n - at) : TILE;
         tile_worker *w = &c->workers[omp_get_thread_num()];
-        const glint_status status = compute_tile(c, w, c->next + at, rows, at, &own);
+        const glint_status status = compute_tile(c, w, first + at, rows, at, &own);
         if (!status) continue;
 #pragma omp critical(glint_first_error)
         if (tile < failed_tile) {
@@ -211,12 +224,20 @@ static glint_status compute_block(glint_curve *c, int64_t n, glint_error *error)
     return failed;
 }
 
-/* Whether [output] rows lets a row through. */
+/* All workers look through the eyes of the observer whose rows come next. */
+static void begin_observer(glint_curve *c)
+{
+    const scenario_observer *o = c->s->observers + c->next / c->s->n_steps;
+    for (int i = 0; i < c->n_threads && !c->s->has_geometry; i++)
+        c->workers[i].geometry.viewer = (viewer){.observer = o};
+}
+
+/* Whether [output] rows lets a row through; where there is no site, nothing must be dark. */
 static bool is_wanted(const glint_scenario *s, const glint_row *row)
 {
     if (s->rows == ROWS_ALL) return true;
-    if (row->flags & (GLINT_BELOW_HORIZON | GLINT_UMBRA)) return false;
-    return s->rows == ROWS_VISIBLE || row->flags & GLINT_SITE_DARK;
+    if (row->flags & (GLINT_BELOW_HORIZON | GLINT_BLOCKED | GLINT_UMBRA)) return false;
+    return s->rows == ROWS_VISIBLE || !row->has_site || row->flags & GLINT_SITE_DARK;
 }
 
 /* Hands out row k of the block, and counts what was not measured in it. */
@@ -231,11 +252,13 @@ glint_status glint_curve_next(glint_curve *c, const glint_row **rows, size_t *n,
 {
     *rows = c->chosen;
     *n = 0;
-    while (*n == 0 && c->next < c->s->n_steps) {
-        const int64_t left = c->s->n_steps - c->next, block = (int64_t)c->block;
+    while (*n == 0 && c->next < glint_curve_length(c)) {
+        const int64_t first = c->next % c->s->n_steps; /* of the observer whose turn it is */
+        const int64_t left = c->s->n_steps - first, block = (int64_t)c->block;
         const int64_t count = left < block ? left : block;
-        glint_status status = cover_block(c, count, error);
-        if (!status) status = compute_block(c, count, error);
+        if (first == 0) begin_observer(c);
+        glint_status status = cover_block(c, first, count, error);
+        if (!status) status = compute_block(c, first, count, error);
         if (status) {
             if (error && !error->file[0])
                 snprintf(error->file, sizeof error->file, "%s", c->s->documents[0]->path);

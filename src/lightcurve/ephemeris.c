@@ -4,8 +4,6 @@
 #include "base/vec.h"
 #include "lightcurve/facts.h"
 #include "lightcurve/watch.h"
-#include "orbit/eclipse.h"
-#include "orbit/moon.h"
 
 #include <math.h>
 #include <omp.h>
@@ -16,11 +14,21 @@
 
 enum { BLOCK = 2048 }; /* rows computed together */
 
-/* A column: where its number stands in a row, and what to multiply it with. */
+/* The part of the scenario that a column needs. */
+typedef enum column_need {
+    NEED_NOTHING,
+    NEED_SITE,  /* some observer is one; only its rows have a number */
+    NEED_PLACE, /* some observer is no direction, whose motion is not known; likewise */
+    NEED_TEME,
+    NEED_ATTITUDE
+} column_need;
+
+/* A column: where its number stands in a row, what to multiply it with, and which rows have it. */
 typedef struct ephemeris_column {
     size_t offset;
     double unit;
     int hinge; /* index among the hinges; -1: not one */
+    column_need need;
 } ephemeris_column;
 
 /* What one thread needs. */
@@ -62,9 +70,6 @@ static const double KM = 1e-3, TO_DEG = 1 / DEG, TO_ARCSEC = 1 / ARCSEC;
             AT3(v_##frame##_m_s, i), &KM, need                                                     \
     }
 
-/* The part of the scenario that a column needs. */
-typedef enum column_need { NEED_NOTHING, NEED_TEME, NEED_ATTITUDE } column_need;
-
 static const struct {
     const char *name, *unit, *description;
     size_t offset;
@@ -72,21 +77,22 @@ static const struct {
     column_need need;
 } COLUMNS[] = {
     {"t_s", "s", "TT seconds from the start", AT(t_s), NULL, NEED_NOTHING},
-    {"ra_deg", "deg", "right ascension from the site, ICRS axes, along the light path", AT(ra_rad),
-     &TO_DEG, NEED_NOTHING},
-    {"dec_deg", "deg", "declination from the site, ICRS axes, along the light path", AT(dec_rad),
-     &TO_DEG, NEED_NOTHING},
+    {"ra_deg", "deg", "right ascension from the observer, ICRS axes, along the light path",
+     AT(ra_rad), &TO_DEG, NEED_NOTHING},
+    {"dec_deg", "deg", "declination from the observer, ICRS axes, along the light path",
+     AT(dec_rad), &TO_DEG, NEED_NOTHING},
     {"rate_arcsec_s", "arcsec / s", "angular rate against the stars", AT(angular_rate_rad_s),
-     &TO_ARCSEC, NEED_NOTHING},
-    {"azimuth_deg", "deg", "from north through east", AT(azimuth_rad), &TO_DEG, NEED_NOTHING},
-    {"elevation_deg", "deg", "geometric", AT(elevation_rad), &TO_DEG, NEED_NOTHING},
+     &TO_ARCSEC, NEED_PLACE},
+    {"azimuth_deg", "deg", "from north through east", AT(azimuth_rad), &TO_DEG, NEED_SITE},
+    {"elevation_deg", "deg", "geometric, or apparent where the site has refraction",
+     AT(elevation_rad), &TO_DEG, NEED_SITE},
     {"range_km", "km", "observer to satellite", AT(range_m), &KM, NEED_NOTHING},
-    {"range_rate_km_s", "km / s", "positive when receding", AT(range_rate_m_s), &KM, NEED_NOTHING},
+    {"range_rate_km_s", "km / s", "positive when receding", AT(range_rate_m_s), &KM, NEED_PLACE},
     {"sun_elevation_deg", "deg", "of the Sun at the site, geometric", AT(sun_elevation_rad),
-     &TO_DEG, NEED_NOTHING},
-    {"sun_separation_deg", "deg", "between satellite and Sun, from the site",
+     &TO_DEG, NEED_SITE},
+    {"sun_separation_deg", "deg", "between satellite and Sun, from the observer",
      AT(sun_separation_rad), &TO_DEG, NEED_NOTHING},
-    {"moon_separation_deg", "deg", "between satellite and Moon, from the site",
+    {"moon_separation_deg", "deg", "between satellite and Moon, from the observer",
      AT(moon_separation_rad), &TO_DEG, NEED_NOTHING},
     {"phase_angle_deg", "deg", "at the satellite, between Sun and observer; 0 is full",
      AT(phase_angle_rad), &TO_DEG, NEED_NOTHING},
@@ -126,10 +132,20 @@ static const struct {
 
 enum { N_COLUMNS = sizeof COLUMNS / sizeof *COLUMNS };
 
+/* Whether an observer has what a column needs of it. */
+static bool observer_has(const scenario_observer *o, column_need need)
+{
+    if (need == NEED_SITE) return o->kind == OBSERVER_SITE;
+    return need == NEED_PLACE ? o->kind != OBSERVER_DIRECTION : true;
+}
+
 static bool has(const glint_scenario *s, column_need need)
 {
     if (need == NEED_TEME) return orbit_wanted_frames(s->orbit.propagator) & FRAMES_TEME;
-    return need == NEED_ATTITUDE ? s->has_attitude : true;
+    if (need == NEED_ATTITUDE) return s->has_attitude;
+    for (int k = 0; k < s->n_observers; k++)
+        if (observer_has(&s->observers[k], need)) return true;
+    return false;
 }
 
 static void add_column(glint_ephemeris *e, glint_column column, ephemeris_column at)
@@ -148,34 +164,38 @@ static bool add_hinges(glint_ephemeris *e)
         if (name.failed) return false;
         e->names[k] = name.data;
         add_column(e, (glint_column){name.data, "deg", "angle of the component's hinge", false},
-                   (ephemeris_column){0, TO_DEG, k++});
+                   (ephemeris_column){0, TO_DEG, k++, NEED_NOTHING});
     }
     return true;
 }
 
 static bool make_columns(glint_ephemeris *e)
 {
-    const size_t most = 1 + N_COLUMNS + (size_t)e->n_hinges;
+    const size_t most = 2 + N_COLUMNS + (size_t)e->n_hinges;
     e->columns = calloc(most, sizeof *e->columns);
     e->places = calloc(most, sizeof *e->places);
     e->names = calloc((size_t)e->n_hinges + 1, sizeof *e->names);
     if (!e->columns || !e->places || !e->names) return false;
     add_column(e, (glint_column){"utc", "", "UTC of reception at the observer", true},
-               (ephemeris_column){0, 0, -1});
+               (ephemeris_column){0, 0, -1, NEED_NOTHING});
+    if (e->s->n_observers > 1)
+        add_column(e, (glint_column){"observer", "", "name of the observer", true},
+                   (ephemeris_column){0, 0, -1, NEED_NOTHING});
     for (size_t k = 0; k < N_COLUMNS; k++)
         if (has(e->s, COLUMNS[k].need))
             add_column(
                 e, (glint_column){COLUMNS[k].name, COLUMNS[k].unit, COLUMNS[k].description, false},
-                (ephemeris_column){COLUMNS[k].offset, COLUMNS[k].scale ? *COLUMNS[k].scale : 1,
-                                   -1});
+                (ephemeris_column){COLUMNS[k].offset, COLUMNS[k].scale ? *COLUMNS[k].scale : 1, -1,
+                                   COLUMNS[k].need});
     return add_hinges(e);
 }
 
 bool glint_ephemeris_value(const glint_ephemeris *e, const glint_ephemeris_row *row, size_t column,
                            double *value)
 {
-    if (column == 0 || column >= e->n_columns) return false;
+    if (column >= e->n_columns || e->columns[column].is_text) return false;
     const ephemeris_column *at = &e->places[column];
+    if (!observer_has(e->s->observers + row->observer, at->need)) return false;
     double number;
     if (at->hinge >= 0)
         number = row->hinge_rad[at->hinge];
@@ -189,33 +209,34 @@ bool glint_ephemeris_value(const glint_ephemeris *e, const glint_ephemeris_row *
 
 /* Direction and distance as they change. Light that arrives now left a time range/c ago, so that
  * the satellite seems to move at v (1 - range_rate/c). */
-static void fill_rates(const sighting *seen, const double spin[3], glint_ephemeris_row *row)
+static void fill_rates(const sighting *seen, glint_ephemeris_row *row)
 {
-    const double *u = seen->sight_gcrs, *v = seen->moment.v_m_s;
-    double site[3], relative[3];
-    cross3(spin, seen->site_gcrs_m, site);
+    const double *u = seen->sight_gcrs, *v = seen->moment.v_m_s, *own = seen->observer_v_m_s;
+    double relative[3];
     const double along = dot3(u, v), late = seen->light_time_s > 0 ? along / LIGHT_SPEED_M_S : 0;
-    row->range_rate_m_s = (along - dot3(u, site)) / (1 + late);
+    row->range_rate_m_s = (along - dot3(u, own)) / (1 + late);
     const double slowed = seen->light_time_s > 0 ? 1 - row->range_rate_m_s / LIGHT_SPEED_M_S : 1;
     for (int i = 0; i < 3; i++)
-        relative[i] = slowed * v[i] - site[i];
+        relative[i] = slowed * v[i] - own[i];
     add_scaled3(relative, -dot3(relative, u), u, relative);
     row->angular_rate_rad_s = norm3(relative) / seen->range_m;
 }
 
-static void fill_sky(const glint_scenario *s, const sighting *seen, glint_ephemeris_row *row)
+static void fill_sky(const glint_scenario *s, viewer *v, const sighting *seen,
+                     glint_ephemeris_row *row)
 {
     const double *u = seen->sight_gcrs;
-    double sun[3], moon[3], distance_m, sun_azimuth;
+    double sun[3], moon[3], distance_m;
     row->ra_rad = atan2(u[1], u[0]);
     if (row->ra_rad < 0) row->ra_rad = fmod(row->ra_rad + TWO_PI, TWO_PI);
     row->dec_rad = atan2(u[2], hypot(u[0], u[1]));
-    sky_place(s, &seen->frames, u, &row->azimuth_rad, &row->elevation_rad);
-    sun_from_point(&seen->frames, seen->site_gcrs_m, s->aberration, sun, &distance_m);
-    sky_place(s, &seen->frames, sun, &sun_azimuth, &row->sun_elevation_rad);
+    if (v->observer->kind == OBSERVER_SITE) {
+        sighting_place(v->observer, seen, &row->azimuth_rad, &row->elevation_rad);
+        row->sun_elevation_rad = sighting_sun_elevation(s, v->observer, seen);
+    }
+    sun_from_point(&seen->frames, seen->observer_gcrs_m, s->aberration, sun, &distance_m);
     row->sun_separation_rad = angle3(u, sun);
-    moon_position(&s->clock, row->t_s, moon);
-    sub3(moon, seen->site_gcrs_m, moon);
+    sighting_moon(s, v, seen, row->t_s, moon);
     row->moon_separation_rad = angle3(u, moon);
 }
 
@@ -257,12 +278,17 @@ static glint_status fill_attitude(const glint_ephemeris *e, ephemeris_worker *wo
     return GLINT_OK;
 }
 
-static glint_status fill_row(const glint_ephemeris *e, ephemeris_worker *worker, int64_t step,
+static glint_status fill_row(const glint_ephemeris *e, ephemeris_worker *worker, int64_t number,
                              glint_ephemeris_row *row, double *hinge_rad, glint_error *error)
 {
     const glint_scenario *s = e->s;
     sighting seen;
-    *row = (glint_ephemeris_row){.t_s = (double)step * s->step_s, .hinge_rad = hinge_rad};
+    *row = (glint_ephemeris_row){.t_s = (double)(number % s->n_steps) * s->step_s,
+                                 .observer = (size_t)(number / s->n_steps),
+                                 .hinge_rad = hinge_rad};
+    const scenario_observer *o = s->observers + row->observer;
+    row->observer_name = o->name;
+    if (worker->w.viewer.observer != o) worker->w.viewer = (viewer){.observer = o};
     const glint_status status = watch_at(&worker->w, row->t_s, &seen, error);
     if (status) return status;
     const moment *m = &seen.moment;
@@ -270,12 +296,11 @@ static glint_status fill_row(const glint_ephemeris *e, ephemeris_worker *worker,
     scale3(m->itrs_gcrs + 6, EARTH_TURN_RAD_S, spin);
     run_clock_utc(&s->clock, row->t_s, &row->utc);
     row->range_m = seen.range_m;
-    fill_rates(&seen, spin, row);
-    fill_sky(s, &seen, row);
+    fill_rates(&seen, row);
+    fill_sky(s, &worker->w.viewer, &seen, row);
     fill_frames(s, &seen, spin, row);
     row->phase_angle_rad = angle3(m->sun, m->observer);
-    row->sunlit_fraction =
-        eclipse_sunlit_fraction(m->r_m, m->sun, seen.sun_distance_m, m->itrs_gcrs + 6);
+    row->sunlit_fraction = sighting_sunlit(s, &worker->w.viewer, &seen, NULL);
     cross3(m->r_m, m->v_m_s, normal);
     row->beta_rad = 0.5 * PI - angle3(normal, m->sun);
     return fill_attitude(e, worker, m, row, hinge_rad, error);
@@ -382,7 +407,8 @@ static glint_status fill_block(glint_ephemeris *e, int n, glint_error *error)
 glint_status glint_ephemeris_next(glint_ephemeris *e, const glint_ephemeris_row **rows, size_t *n,
                                   glint_error *error)
 {
-    const int64_t left = e->s->n_steps - e->next;
+    const int64_t all = glint_ephemeris_length(e), n_steps = e->s->n_steps;
+    const int64_t left = e->next < all ? n_steps - e->next % n_steps : 0; /* of one observer */
     const int count = left < BLOCK ? (int)left : BLOCK;
     *rows = e->rows;
     *n = 0;
@@ -399,7 +425,7 @@ glint_status glint_ephemeris_next(glint_ephemeris *e, const glint_ephemeris_row 
 
 int64_t glint_ephemeris_length(const glint_ephemeris *e)
 {
-    return e->s->n_steps;
+    return e->s->n_steps * e->s->n_observers;
 }
 
 int64_t glint_ephemeris_done(const glint_ephemeris *e)

@@ -263,7 +263,7 @@ static void replace_row(const exposure *x, double *sums, int k, const photometry
     for (int i = 0; i < m->n_components; i++)
         component[i] = sums[0] > 0 ? sums[s->n_bands + m->n_materials + i] / sums[0] : 0;
     row->flags &= ~(unsigned)GLINT_DARK;
-    if (!bright && !(row->flags & (GLINT_BELOW_HORIZON | GLINT_UMBRA)))
+    if (!bright && !(row->flags & (GLINT_BELOW_HORIZON | GLINT_BLOCKED | GLINT_UMBRA)))
         row->flags |= GLINT_DARK;
 }
 

@@ -139,7 +139,8 @@ static uint64_t hash_motion(uint64_t hash, const glint_scenario *s)
     return hash;
 }
 
-/* Of all that decides the result: the files, what was set, the element set, the directions. */
+/* Of all that decides the result: the files, what was set, element sets, positions, masks, Earth
+ * orientation, directions, tables of attitudes and angles. */
 static uint64_t scenario_hash(const glint_scenario *s)
 {
     uint64_t hash = 0xcbf29ce484222325ull;
@@ -150,6 +151,18 @@ static uint64_t scenario_hash(const glint_scenario *s)
     hash = hash_satellite(hash, &s->satellite, s->n_bands);
     if (!s->has_geometry) hash = hash_orbit(hash, &s->orbit);
     hash = hash_motion(hash, s);
+    for (int i = 0; i < s->n_observers; i++) {
+        const scenario_observer *o = &s->observers[i];
+        if (o->kind == OBSERVER_SATELLITE) hash = hash_orbit(hash, &o->orbit);
+        for (int k = 0; k < o->horizon.n; k++) {
+            const double point[] = {o->horizon.points[k].azimuth, o->horizon.points[k].elevation};
+            hash = hash_bytes(hash, point, sizeof point);
+        }
+    }
+    if (s->eop) {
+        const uint64_t fingerprint = eop_fingerprint(s->eop);
+        hash = hash_bytes(hash, &fingerprint, sizeof fingerprint);
+    }
     if (s->has_geometry) {
         const size_t n = (size_t)s->geometry.n;
         hash = hash_bytes(hash, s->geometry.sun, n * sizeof *s->geometry.sun);
@@ -158,6 +171,94 @@ static uint64_t scenario_hash(const glint_scenario *s)
         hash = hash_bytes(hash, s->geometry.t_s, n * sizeof *s->geometry.t_s);
     }
     return hash;
+}
+
+static void describe_site(const scenario_observer *o, text *out)
+{
+    text_printf(out, "latitude %.6g deg, longitude %.6g deg, height %g m; nothing below %g deg",
+                o->site.latitude / DEG, o->site.longitude / DEG, o->site.height_m,
+                o->horizon.least / DEG);
+    if (o->horizon.n > 0)
+        text_printf(out, " and a mask of %d points up to %g deg", o->horizon.n,
+                    o->horizon.highest / DEG);
+    if (o->air.on)
+        text_printf(out,
+                    "; elevations with refraction (Bennett 1982; %.6g hPa, %.4g C; below 0 deg "
+                    "as at 0 deg)",
+                    o->air.pressure_hpa, o->air.temperature_c);
+}
+
+char *fact_observer(const glint_scenario *s, const scenario_observer *o)
+{
+    text out = {0};
+    text_printf(&out, "%s%s", o->name, o->name[0] ? ": " : "");
+    if (o->kind == OBSERVER_SITE) {
+        describe_site(o, &out);
+    } else if (o->kind == OBSERVER_SATELLITE) {
+        char *line = fact_orbit(s, &o->orbit);
+        text_printf(&out, "a satellite, %s; the Earth hides what is behind it", line ? line : "");
+        free(line);
+    } else {
+        const double *d = o->direction;
+        text_printf(&out, "always %g km in the direction (%.6g, %.6g, %.6g) of the %s",
+                    o->range_m * 1e-3, d[0], d[1], d[2],
+                    o->in_body ? "body, seen past everything" : "frame GCRS, seen past everything");
+    }
+    return out.data;
+}
+
+/* One fact for all of them: keys of a YAML map are unique. */
+static void add_observers(const glint_scenario *s, fact_list *out)
+{
+    text all = {0};
+    for (int i = 0; i < s->n_observers; i++) {
+        char *line = fact_observer(s, &s->observers[i]);
+        text_printf(&all, "%s%s", i ? " | " : "", line ? line : "");
+        free(line);
+    }
+    if (all.failed)
+        out->failed = true;
+    else
+        add(out, s->n_observers > 1 ? "observers" : "observer", "%s", all.data ? all.data : "");
+    text_free(&all);
+}
+
+static bool any_refraction(const glint_scenario *s)
+{
+    for (int i = 0; i < s->n_observers; i++)
+        if (s->observers[i].air.on) return true;
+    return false;
+}
+
+static void write_date(int mjd, char out[16])
+{
+    glint_utc date;
+    utc_from_mjd(mjd, &date);
+    snprintf(out, 16, "%04d-%02d-%02d", date.year % 10000, date.month % 100, date.day % 100);
+}
+
+/* How the Earth turns. */
+static void add_orientation(const glint_scenario *s, fact_list *out)
+{
+    char dut1[NUMBER_SIZE + 1];
+    dut1[number_format(s->clock.dut1_s, dut1)] = '\0';
+    if (!s->eop) {
+        add(out, "dut1_s", "%s%s", dut1,
+            s->dut1_s == 0 ? " (UT1-UTC taken as 0: at most 0.9 s, 0.4 km on the equator)" : "");
+        add(out, "polar_motion", "taken as 0 (at most 0.6 arcsec, 20 m on the ground)");
+        return;
+    }
+    int first, last, predicted;
+    char since[16], tt_end[16];
+    eop_span(s->eop, &first, &last, &predicted);
+    write_date(predicted, since);
+    write_date(last, tt_end);
+    add(out, "dut1_s", "%.7f at the start (UT1-UTC), then as in eop", s->clock.dut1_s);
+    add(out, "polar_motion", "as in eop");
+    add(out, "eop", "%s (%s%s), linear between its days; %s%s", s->eop_name, eop_format(s->eop),
+        string_equal(eop_format(s->eop), "C04") ? "" : ", Bulletin A",
+        predicted <= last ? "predictions from " : "no predictions up to ",
+        predicted <= last ? since : tt_end);
 }
 
 static void add_bands(const glint_scenario *s, fact_list *out)
@@ -205,13 +306,9 @@ static void add_attitude(const glint_scenario *s, fact_list *out)
 
 static void add_time(const glint_scenario *s, fact_list *out)
 {
-    char dut1[NUMBER_SIZE + 1];
-    dut1[number_format(s->dut1_s, dut1)] = '\0';
     add(out, "time_scale",
         "utc is the reception at the observer; t_s counts TT seconds from the start");
-    add(out, "dut1_s", "%s%s", dut1,
-        s->dut1_s == 0 ? " (UT1-UTC taken as 0: at most 0.9 s, 0.4 km on the equator)" : "");
-    add(out, "polar_motion", "taken as 0 (at most 0.6 arcsec, 20 m on the ground)");
+    add_orientation(s, out);
     if (s->clock.dubious) add(out, "leap_seconds", "not known for these years");
     char *line = fact_orbit(s, &s->orbit);
     add(out, "orbit", "%s", line ? line : "");
@@ -222,7 +319,10 @@ static void add_time(const glint_scenario *s, fact_list *out)
     add_attitude(s, out);
     add(out, "light_time", s->light_time ? "yes" : "no");
     add(out, "aberration", s->aberration ? "yes, of the Sun" : "no");
-    add(out, "eclipse", "WGS84 ellipsoid, uniform solar disc, no refraction in the atmosphere");
+    add(out, "eclipse",
+        "by the WGS84 ellipsoid and by the Moon's disc (place good to 25 km), uniform solar disc, "
+        "no refraction in the atmosphere");
+    add_observers(s, out);
 }
 
 static void add_origin(const glint_scenario *s, fact_list *out)
@@ -276,6 +376,29 @@ void facts_of_orbit(const glint_scenario *s, fact_list *out)
     add_time(s, out);
 }
 
+/* What interpolated shadows are off by, of the mean flux, for each rad of shadow_step: as measured
+ * on several bodies (docs/physics.md, Shadows between parts). */
+static const double INTERPOLATION_RMS_PER_RAD = 0.017;
+
+static void add_shadows(const glint_scenario *s, fact_list *out)
+{
+    static const char *const AREA =
+        "facets shine with the area that is both lit by the Sun and seen by the observer";
+    if (s->self_shadows == SHADOWS_NONE)
+        add(out, "self_shadows", "none: shadows that parts cast on each other are neglected");
+    else if (s->self_shadows == SHADOWS_INTERPOLATED)
+        add(out, "self_shadows",
+            "interpolated: %s; exact every %g deg of motion, and interpolated between: off by "
+            "about %.2g of the mean flux, rms",
+            AREA, s->shadow_step / DEG, INTERPOLATION_RMS_PER_RAD * s->shadow_step);
+    else if (s->self_shadows == SHADOWS_RAYS)
+        add(out, "self_shadows",
+            "rays: %s, by %d points of each facet: its fraction is off by up to %.2g, rms", AREA,
+            s->rays_per_facet, 0.5 * pow(s->rays_per_facet, -0.7));
+    else
+        add(out, "self_shadows", "exact: %s", AREA);
+}
+
 void facts_of_run(const glint_scenario *s, fact_list *out)
 {
     add_origin(s, out);
@@ -285,22 +408,18 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
     else
         add_time(s, out);
     add_measured(s, out);
-    add(out, "self_shadows",
-        s->self_shadows == SHADOWS_NONE
-            ? "none: shadows that parts cast on each other are neglected"
-            : "exact: facets shine with the area that is both lit by the Sun and seen by the "
-              "observer");
+    add_shadows(s, out);
     add_flicker(s, out);
     static const char *const DISCS[] = {
-        [SOLAR_UNIFORM] = "uniform: light is averaged over the Sun's disc, whose own shadows have "
-                          "sharp edges (those of its centre)",
-        [SOLAR_LIMB_DARKENED] = "limb-darkened (linear, u = 0.6): light is averaged over the Sun's "
-                                "disc, whose own shadows have sharp edges (those of its centre)",
+        [SOLAR_UNIFORM] =
+            "uniform: the mean over the Sun's disc; shadows between parts are those of "
+            "its centre",
+        [SOLAR_LIMB_DARKENED] = "limb-darkened (linear, u = 0.6): the mean over the Sun's disc; "
+                                "shadows between parts are those of its centre",
         [SOLAR_POINT] = "point: facets see the Sun's light from the centre of its disc"};
     add(out, "solar_disc", "%s", DISCS[s->solar_disc]);
     add(out, "earthshine", "none");
     add(out, "not_modelled",
-        "interreflection between parts, polarisation, transmission, thermal emission, moonlight, "
-        "the Moon's shadow%s",
-        s->has_geometry ? "" : ", refraction of the line of sight");
+        "interreflection between parts, polarisation, transmission, thermal emission, moonlight%s",
+        s->has_geometry || any_refraction(s) ? "" : ", refraction of the line of sight");
 }

@@ -26,5 +26,7 @@ char *fact_orbit(const glint_scenario *s, const scenario_orbit *o);
 char *fact_element_sets(const glint_scenario *s, const scenario_orbit *o);
 /* Name of the satellite as the file of its orbit has it; "" where there is none. */
 const char *scenario_object(const glint_scenario *s);
+/* An observer in one line, likewise: its name, where it is, what it cannot see, its air. */
+char *fact_observer(const glint_scenario *s, const scenario_observer *o);
 
 #endif

@@ -1,83 +1,13 @@
 #include "lightcurve/geometry.h"
 
+#include "base/clones.h"
 #include "base/constants.h"
 #include "base/vec.h"
+#include "lightcurve/sky.h"
 #include "orbit/eclipse.h"
-#include "orbit/moon.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* The frames tau_s earlier, to first order in what moves slowly: the Earth turns back by its
- * rotation (about ITRS z instead of the CIP, which polar motion keeps within 3e-6 rad: 3e-11 rad
- * over a second), the Sun goes back along its path. */
-static void frames_earlier(const frame_set *f, double tau_s, frame_set *out)
-{
-    *out = *f;
-    const double c = cos(EARTH_TURN_RAD_S * tau_s), s = sin(EARTH_TURN_RAD_S * tau_s);
-    for (int i = 0; i < 3; i++) {
-        out->itrs_gcrs[i] = c * f->itrs_gcrs[i] - s * f->itrs_gcrs[3 + i];
-        out->itrs_gcrs[3 + i] = s * f->itrs_gcrs[i] + c * f->itrs_gcrs[3 + i];
-        out->sun_gcrs_m[i] -= tau_s * (f->sun_velocity_m_s[i] - f->earth_velocity_m_s[i]);
-    }
-}
-
-/* The satellite's state when the light that arrives at t_s left it; leaves the frames of emission.
- */
-static glint_status solve_light_time(const glint_scenario *s, double t_s, double guess_s,
-                                     orbit_cursor *cursor, sighting *out, frame_set *emission,
-                                     glint_error *error)
-{
-    /* A correction this small is applied along the velocity: it moves the satellite by at most
-     * 11 mm, and the curvature of the orbit over it by 1e-11 m. */
-    static const double SMALL_S = 1e-6;
-    enum { MOST_ROUNDS = 10 };
-    double *r = out->moment.r_m, *v = out->moment.v_m_s, rho[3];
-    double tau = s->light_time ? guess_s : 0;
-    for (int round = 0;; round++) {
-        frames_earlier(&out->frames, tau, emission);
-        const glint_status status = orbit_state(s->orbit.propagator, t_s - tau, emission, cursor, r, v, error);
-        if (status) return status;
-        sub3(r, out->site_gcrs_m, rho);
-        out->range_m = unit3(rho, out->sight_gcrs);
-        if (!s->light_time) break;
-        const double change = out->range_m / LIGHT_SPEED_M_S - tau;
-        tau += change;
-        if (fabs(change) > SMALL_S && round < MOST_ROUNDS) continue;
-        add_scaled3(r, -change, v, r);
-        sub3(r, out->site_gcrs_m, rho);
-        out->range_m = unit3(rho, out->sight_gcrs);
-        break;
-    }
-    out->light_time_s = tau;
-    return GLINT_OK;
-}
-
-glint_status sighting_at(const glint_scenario *s, const frame_grid *grid, double t_s,
-                         double guess_s, orbit_cursor *cursor, sighting *out, glint_error *error)
-{
-    frame_grid_at(grid, t_s, orbit_wanted_frames(s->orbit.propagator) | FRAMES_SUN, &out->frames);
-    mat_tvec(out->frames.itrs_gcrs, s->site.r_itrs_m, out->site_gcrs_m);
-    frame_set emission;
-    const glint_status status = solve_light_time(s, t_s, guess_s, cursor, out, &emission, error);
-    if (status) return status;
-    if (!(out->range_m > 0.0))
-        return error_set(error, GLINT_INPUT, PLACE_NONE,
-                         "at t_s = %.3f the satellite is at the observer; expected a distance",
-                         t_s);
-    moment *m = &out->moment;
-    m->t_s = t_s - out->light_time_s;
-    scale3(out->sight_gcrs, -1.0, m->observer);
-    memcpy(m->itrs_gcrs, emission.itrs_gcrs, sizeof m->itrs_gcrs);
-    sun_from_point(&emission, m->r_m, s->aberration, m->sun, &out->sun_distance_m);
-    if (s->needs_moon) {
-        double moon[3];
-        moon_position(&s->clock, m->t_s, moon);
-        sub3(moon, m->r_m, moon);
-        unit3(moon, m->moon);
-    }
-    return GLINT_OK;
-}
 
 /* Turns a direction of the vocabulary into a component's parent's axes. */
 static glint_status target_in_parent(const direction *target, const moment *m,
@@ -183,56 +113,107 @@ static void light_components(const satellite *sat, const moment *m,
     }
 }
 
-/* The elevation is precise at the zenith too. */
-void sky_place(const glint_scenario *s, const frame_set *frames, const double gcrs[3],
-               double *azimuth, double *elevation)
+_Static_assert((int)TILE == (int)FRAME_LANES, "frames come by the tile");
+
+/* What the angles of a tile follow from: number i of lane k at [i][k]. */
+typedef struct view_lanes {
+    double satellite[3][TILE], sun[3][TILE]; /* east, north, up of a site; else 0 */
+    double phase[2][TILE];                   /* sine and cosine of the phase angle */
+} view_lanes;
+
+static void keep_lane(const double v[3], int k, double lanes[3][TILE])
 {
-    double itrs[3], enu[3];
-    mat_vec(frames->itrs_gcrs, gcrs, itrs);
-    mat_vec(s->site.enu_itrs, itrs, enu);
-    const double angle = atan2(enu[0], enu[1]);
-    const double turned = angle + TWO_PI; /* may round to a full turn: that is 0 */
-    *azimuth = angle >= 0 ? angle : turned < TWO_PI ? turned : 0;
-    *elevation = atan2(enu[2], sqrt(enu[0] * enu[0] + enu[1] * enu[1]));
+    for (int i = 0; i < 3; i++)
+        lanes[i][k] = v[i];
 }
 
-static void fill_site(const glint_scenario *s, const sighting *seen, int k, tile_geometry *out)
+/* Leaves what the observer of lane k sees, for when all lanes are there. */
+static void keep_view(const glint_scenario *s, const sighting *seen, int k,
+                      const scenario_observer *who, view_lanes *lanes)
 {
-    double sun[3], distance_m, sun_azimuth;
-    sky_place(s, &seen->frames, seen->sight_gcrs, &out->azimuth[k], &out->elevation[k]);
-    out->seen[k] = out->elevation[k] >= s->min_elevation;
-    sun_from_point(&seen->frames, seen->site_gcrs_m, s->aberration, sun, &distance_m);
-    sky_place(s, &seen->frames, sun, &sun_azimuth, &out->sun_elevation[k]);
+    double across[3], enu[3], sun[3], distance_m;
+    cross3(seen->moment.sun, seen->moment.observer, across);
+    lanes->phase[0][k] = norm3(across);
+    lanes->phase[1][k] = dot3(seen->moment.sun, seen->moment.observer);
+    if (who->kind != OBSERVER_SITE) return;
+    sky_axes(who, &seen->frames, seen->sight_gcrs, enu);
+    keep_lane(enu, k, lanes->satellite);
+    sun_from_point(&seen->frames, seen->observer_gcrs_m, s->aberration, sun, &distance_m);
+    sky_axes(who, &seen->frames, sun, enu);
+    keep_lane(enu, k, lanes->sun);
 }
 
-/* How fast the satellite moves against the stars, as the site sees it. */
-static double angular_rate(const sighting *seen)
+/* Angles of all lanes at once. */
+CLONES FLATTEN static void find_angles(const view_lanes *restrict l, tile_geometry *restrict out)
 {
-    double spin[3], velocity[3];
-    scale3(seen->frames.itrs_gcrs + 6, EARTH_TURN_RAD_S, spin);
-    cross3(spin, seen->site_gcrs_m, velocity);
-    sub3(seen->moment.v_m_s, velocity, velocity);
+    for (int k = 0; k < TILE; k++) {
+        out->phase_angle[k] = sky_angle(l->phase[0][k], l->phase[1][k]);
+        out->azimuth[k] = sky_azimuth(l->satellite[0][k], l->satellite[1][k]);
+        out->elevation[k] =
+            sky_elevation(l->satellite[0][k], l->satellite[1][k], l->satellite[2][k]);
+        out->sun_elevation[k] = sky_elevation(l->sun[0][k], l->sun[1][k], l->sun[2][k]);
+    }
+}
+
+/* What follows from the angles: refraction, and what stands above the horizon. */
+static void finish_view(const view_lanes *lanes, tile_geometry *out)
+{
+    const scenario_observer *o = out->who;
+    find_angles(lanes, out);
+    for (int k = 0; k < out->n; k++) {
+        if (o->kind == OBSERVER_SITE) {
+            out->elevation[k] = refraction_apparent(&o->air, out->elevation[k]);
+            out->seen[k] = out->elevation[k] >= horizon_limit(&o->horizon, out->azimuth[k]);
+        }
+        if (out->seen[k] && out->sun_weight[k] > 0) out->any_bright = true;
+    }
+}
+
+/* The Moon as the observer sees it. */
+static void fill_moon(const glint_scenario *s, const sighting *seen, int k, viewer *v,
+                      tile_geometry *out)
+{
+    double moon[3], sun[3], unit[3];
+    sighting_moon(s, v, seen, out->t_s[k], moon);
+    sub3(seen->frames.sun_gcrs_m, seen->observer_gcrs_m, sun);
+    out->moon_separation[k] = angle3(moon, seen->sight_gcrs);
+    out->moon_illuminated[k] = moon_illuminated(moon, sun);
+    out->moon_azimuth[k] = out->moon_elevation[k] = 0;
+    unit3(moon, unit);
+    if (out->who->kind == OBSERVER_SITE)
+        sky_place(out->who, &seen->frames, unit, &out->moon_azimuth[k], &out->moon_elevation[k]);
+}
+
+/* How fast the satellite moves against the stars, as a site or a satellite sees it; 0 from a fixed
+ * direction. */
+static double angular_rate(const sighting *seen, const scenario_observer *who)
+{
+    double velocity[3];
+    if (who->kind == OBSERVER_DIRECTION) return 0;
+    sub3(seen->moment.v_m_s, seen->observer_v_m_s, velocity);
     add_scaled3(velocity, -dot3(velocity, seen->sight_gcrs), seen->sight_gcrs, velocity);
     return norm3(velocity) / seen->range_m;
 }
 
-/* One row of a run with an orbit. */
-static glint_status fill_row(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
-                             double guess_s, int k, geometry_worker *worker, tile_geometry *out,
-                             brdf_light *lights, sighting *seen, glint_error *error)
+/* One row of a run with an orbit, but for its angles; seen: with the frames. */
+static glint_status fill_row(const glint_scenario *s, unsigned wanted, double guess_s, int k,
+                             geometry_worker *worker, tile_geometry *out, brdf_light *lights,
+                             view_lanes *lanes, sighting *seen, glint_error *error)
 {
-    glint_status status = sighting_at(s, grid, out->t_s[k], guess_s, &worker->cursor, seen, error);
+    viewer *v = &worker->viewer;
+    glint_status status = sighting_complete(s, out->t_s[k], guess_s, v, seen, error);
     if (status) return status;
     const moment *m = &seen->moment;
-    const double *pole = m->itrs_gcrs + 6;
     out->range_m[k] = seen->range_m;
-    out->angular_rate[k] = angular_rate(seen);
-    out->phase_angle[k] = angle3(m->sun, m->observer);
-    out->sunlit[k] = eclipse_sunlit_fraction(m->r_m, m->sun, seen->sun_distance_m, pole);
+    out->sunlit[k] = sighting_sunlit(s, v, seen, &out->moon_covers[k]);
     const double au = AU_M / seen->sun_distance_m;
     out->sun_radius[k] = asin(SUN_RADIUS_M / seen->sun_distance_m);
     out->sun_weight[k] = out->sunlit[k] * au * au;
-    fill_site(s, seen, k, out);
+    out->seen[k] = v->observer->kind != OBSERVER_SATELLITE ||
+                   !eclipse_earth_between(seen->observer_gcrs_m, m->r_m, m->itrs_gcrs + 6);
+    keep_view(s, seen, k, v->observer, lanes);
+    if (wanted & GEOMETRY_MOON) fill_moon(s, seen, k, v, out);
+    out->angular_rate[k] = wanted & GEOMETRY_RATE ? angular_rate(seen, v->observer) : 0;
     if (wanted & GEOMETRY_HEIGHT) {
         double itrs[3], latitude, longitude;
         mat_vec(m->itrs_gcrs, m->r_m, itrs);
@@ -261,7 +242,9 @@ static glint_status fill_given_row(const glint_scenario *s, int64_t row, int k,
     out->sunlit[k] = out->sun_weight[k] = 1;
     out->sun_radius[k] = asin(SUN_RADIUS_M / AU_M);
     out->seen[k] = true;
+    out->moon_covers[k] = false;
     out->angular_rate[k] = 0;
+    out->azimuth[k] = out->elevation[k] = out->sun_elevation[k] = 0;
     const glint_status status =
         turn_components(&s->satellite, &m, body, worker->component_gcrs, NULL, error);
     if (status) return status;
@@ -283,52 +266,72 @@ static void fill_spare_lanes(int n, int n_components, brdf_light *lights)
     }
 }
 
+/* Rows of a run whose directions are given. */
+static glint_status fill_given(const glint_scenario *s, int64_t first, geometry_worker *worker,
+                               tile_geometry *out, brdf_light *lights, glint_error *error)
+{
+    for (int k = 0; k < out->n; k++) {
+        out->t_s[k] = s->geometry.t_s[first + k];
+        const glint_status status = fill_given_row(s, first + k, k, worker, out, lights, error);
+        if (status) return status;
+        out->any_bright = true;
+    }
+    return GLINT_OK;
+}
+
+/* Rows of a run with an orbit, at out->t_s. in_steps: times are steps of a run, so that the next
+ * light time is guessed by straight extrapolation: right to 1e-6 s for short steps. */
+static glint_status fill_rows(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
+                              bool in_steps, geometry_worker *worker, tile_geometry *out,
+                              brdf_light *lights, glint_error *error)
+{
+    frame_set frames[TILE];
+    view_lanes lanes = {0};
+    sighting seen;
+    double guess_s = 0, before_s = 0;
+    frame_grid_fill(grid, out->t_s, out->n, sighting_wanted_frames(s, &worker->viewer), frames);
+    for (int k = 0; k < out->n; k++) {
+        seen.frames = frames[k];
+        const glint_status status =
+            fill_row(s, wanted, guess_s, k, worker, out, lights, &lanes, &seen, error);
+        if (status) return status;
+        const double rate = in_steps && k > 0 ? seen.light_time_s - before_s : 0;
+        before_s = seen.light_time_s;
+        guess_s = before_s + rate > 0 ? before_s + rate : before_s;
+    }
+    finish_view(&lanes, out);
+    return GLINT_OK;
+}
+
 glint_status geometry_fill(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
                            int64_t first, int n, geometry_worker *worker, tile_geometry *out,
                            brdf_light *lights, glint_error *error)
 {
-    sighting seen;
-    double guess_s = 0, rate = 0, before_s = 0;
     out->first = first;
     out->n = n;
+    out->who = s->has_geometry ? NULL : worker->viewer.observer;
     out->any_bright = false;
-    for (int k = 0; k < n; k++) {
-        glint_status status;
-        if (s->has_geometry) {
-            out->t_s[k] = s->geometry.t_s[first + k];
-            status = fill_given_row(s, first + k, k, worker, out, lights, error);
-        } else {
-            out->t_s[k] = (double)(first + k) * s->step_s;
-            status = fill_row(s, grid, wanted, guess_s, k, worker, out, lights, &seen, error);
-            /* The next light time by straight extrapolation: right to 1e-6 s for short steps. */
-            if (k > 0) rate = seen.light_time_s - before_s;
-            before_s = seen.light_time_s;
-            guess_s = before_s + rate > 0 ? before_s + rate : before_s;
-        }
-        if (status) return status;
-        if (out->seen[k] && out->sun_weight[k] > 0) out->any_bright = true;
-    }
-    fill_spare_lanes(n, s->satellite.n_components, lights);
-    return GLINT_OK;
+    for (int k = 0; k < n; k++)
+        out->t_s[k] = (double)(first + k) * s->step_s;
+    const glint_status status = s->has_geometry
+                                    ? fill_given(s, first, worker, out, lights, error)
+                                    : fill_rows(s, grid, wanted, true, worker, out, lights, error);
+    if (!status) fill_spare_lanes(n, s->satellite.n_components, lights);
+    return status;
 }
 
 glint_status geometry_fill_at(const glint_scenario *s, const frame_grid *grid, unsigned wanted,
                               const double *t_s, int n, geometry_worker *worker, tile_geometry *out,
                               brdf_light *lights, glint_error *error)
 {
-    sighting seen = {0};
     out->first = 0;
     out->n = n;
+    out->who = worker->viewer.observer;
     out->any_bright = false;
-    for (int k = 0; k < n; k++) {
-        out->t_s[k] = t_s[k];
-        const glint_status status =
-            fill_row(s, grid, wanted, seen.light_time_s, k, worker, out, lights, &seen, error);
-        if (status) return status;
-        if (out->seen[k] && out->sun_weight[k] > 0) out->any_bright = true;
-    }
-    fill_spare_lanes(n, s->satellite.n_components, lights);
-    return GLINT_OK;
+    memcpy(out->t_s, t_s, (size_t)n * sizeof *t_s);
+    const glint_status status = fill_rows(s, grid, wanted, false, worker, out, lights, error);
+    if (!status) fill_spare_lanes(n, s->satellite.n_components, lights);
+    return status;
 }
 
 /* The components as the visibility stage takes them, from malloc. NULL when memory is out. */

@@ -4,7 +4,7 @@
 #define GLINT_LIGHTCURVE_GEOMETRY_H
 
 #include "facets/visibility.h"
-#include "scenario/scenario.h"
+#include "lightcurve/sighting.h"
 
 enum { TILE = BRDF_TILE };
 
@@ -13,25 +13,32 @@ enum { TILE = BRDF_TILE };
 typedef struct tile_geometry {
     int64_t first;
     int n;
-    double t_s[TILE];         /* reception, TT s from the start */
-    double range_m[TILE];     /* observer to satellite along the light path */
-    double phase_angle[TILE]; /* at the satellite, between Sun and observer */
-    double sunlit[TILE];      /* visible fraction of the solar disc */
-    double sun_radius[TILE];  /* angular, of the solar disc */
-    double sun_weight[TILE];  /* sunlit x (1 au / distance of the Sun)^2 */
-    double azimuth[TILE], elevation[TILE], sun_elevation[TILE]; /* of a site */
-    double height_m[TILE]; /* geodetic, of the satellite; only with GEOMETRY_HEIGHT */
-    double angular_rate[TILE]; /* of the satellite against the stars, rad/s; good to 1e-4 */
-    bool seen[TILE];       /* not below the horizon */
-    bool any_bright;       /* some lane is seen and sunlit: the sum is needed */
+    double t_s[TILE];             /* reception, TT s from the start */
+    double range_m[TILE];         /* observer to satellite along the light path */
+    double phase_angle[TILE];     /* at the satellite, between Sun and observer */
+    double sunlit[TILE];          /* visible fraction of the solar disc */
+    double sun_radius[TILE];      /* angular, of the solar disc */
+    double sun_weight[TILE];      /* sunlit x (1 au / distance of the Sun)^2 */
+    const scenario_observer *who; /* borrowed; NULL where directions are given */
+    double azimuth[TILE], elevation[TILE], sun_elevation[TILE]; /* of a site; else 0 */
+    bool moon_covers[TILE]; /* the Moon takes a part of the solar disc */
+    /* Only with GEOMETRY_MOON; azimuth and elevation of a site, else 0: */
+    double moon_azimuth[TILE], moon_elevation[TILE];
+    double moon_separation[TILE];  /* between satellite and Moon, from the observer */
+    double moon_illuminated[TILE]; /* fraction of its disc */
+    double height_m[TILE];         /* geodetic, of the satellite; only with GEOMETRY_HEIGHT */
+    double angular_rate[TILE];     /* against the stars, rad/s, only with GEOMETRY_RATE: good to
+                                      1e-4, under J2 to 2e-3 */
+    bool seen[TILE];               /* not below the horizon, not behind the Earth */
+    bool any_bright;               /* some lane is seen and sunlit: the sum is needed */
     double sun[TILE][3], observer[TILE][3]; /* unit; GCRS, or body where directions are given */
 } tile_geometry;
 
-enum { GEOMETRY_HEIGHT = 1u };
+enum { GEOMETRY_HEIGHT = 1u, GEOMETRY_MOON = 2u, GEOMETRY_RATE = 4u };
 
-/* What one thread needs besides: zero-initialise but the arrays. */
+/* What one thread needs besides: zero-initialise but the arrays and the viewer. */
 typedef struct geometry_worker {
-    orbit_cursor cursor;
+    viewer viewer; /* unused where directions are given */
     double (
         *component_gcrs)[9]; /* n_components: v_component = R v_gcrs (or body), scratch; owned */
     visibility_pose *poses;  /* TILE x n_components, in the frame of tile_geometry.sun; owned; NULL
@@ -61,10 +68,6 @@ double satellite_next_change(const glint_scenario *s, double t_s);
  * hinge's target not defined. */
 glint_status satellite_turn(const glint_scenario *s, const moment *m, double body_gcrs[9],
                             double (*component_gcrs)[9], double *hinge_rad, glint_error *error);
-/* Azimuth (0..2 pi, from north through east) and elevation at the site of a unit vector in GCRS. */
-void sky_place(const glint_scenario *s, const frame_set *frames, const double gcrs[3],
-               double *azimuth, double *elevation);
-
 /* Plans the shadows that the satellite's parts cast on each other. Errors: GLINT_INTERNAL (memory).
  */
 glint_status satellite_plan_shadows(const satellite *sat, visibility **out, glint_error *error);
@@ -72,21 +75,5 @@ glint_status satellite_plan_shadows(const satellite *sat, visibility **out, glin
 /* counts[on n + by] of n = sat->n_components: visibility_count_exposed. Errors: GLINT_INTERNAL
  * (memory). */
 glint_status satellite_count_shadowed(const satellite *sat, int *counts, glint_error *error);
-
-/* Satellite as seen from a site at reception time t_s: all in GCRS. */
-typedef struct sighting {
-    frame_set frames; /* at reception */
-    moment moment;    /* at emission */
-    double range_m;
-    double sight_gcrs[3]; /* unit, site to satellite, along the light path */
-    double site_gcrs_m[3];
-    double sun_distance_m; /* from the satellite */
-    double light_time_s;
-} sighting;
-
-/* Finds where the satellite is seen. guess_s: first guess of the light time (0 will do). Errors as
- * above. */
-glint_status sighting_at(const glint_scenario *s, const frame_grid *grid, double t_s,
-                         double guess_s, orbit_cursor *cursor, sighting *out, glint_error *error);
 
 #endif

@@ -9,10 +9,11 @@
 /* Events are found to this: a thousandth of the 1 ms that is promised. */
 #define EVENT_TOLERANCE_S 1e-6
 
-/* While the satellite is above min_elevation. */
+/* While the satellite is above a site's horizon. */
 typedef struct pass_span {
     double from_s, to_s;
     bool up_at_start, up_at_end;
+    const scenario_observer *site; /* borrowed */
 } pass_span;
 
 typedef struct pass_span_list {
@@ -20,7 +21,8 @@ typedef struct pass_span_list {
     size_t n, capacity;
 } pass_span_list;
 
-/* Finds all spans within the scenario's time. Errors: of the orbit; GLINT_INTERNAL (memory). */
+/* Appends all spans over the watch's site within the scenario's time. Errors: of the orbit;
+ * GLINT_INTERNAL (memory). */
 glint_status pass_spans_find(watch *w, pass_span_list *out, glint_error *error);
 /* The highest moment of a span. */
 glint_status pass_culmination(watch *w, const pass_span *span, double *t_s, glint_error *error);
@@ -56,6 +58,15 @@ glint_status light_meter_read(light_meter *meter, const double *t_s, int n, doub
 typedef struct mirror {
     int component;
     double normal[3]; /* unit, component's axes */
+    int facet;        /* the first of them */
+    bool twin;        /* another one looks the same way: not kept */
+    /* By its own turn, and the hinges' and the body's that carry it; what follows the Sun, the
+     * orbit or the observer moves as slowly as they do, and comes on top. */
+    double fastest_rad_s; /* it turns no faster */
+    double period_s;      /* of its turn, where it is a single steady one; else 0 */
+    int frame;            /* component in whose axes the axis of that turn is given; -1: the body */
+    double axis[3];       /* unit */
+    double cosine;        /* of the angle between axis and normal, which stays */
 } mirror;
 
 typedef struct mirror_list {
@@ -64,12 +75,32 @@ typedef struct mirror_list {
 } mirror_list;
 
 /* Gathers the mirrors of a satellite. Errors: GLINT_INTERNAL (memory). */
-glint_status mirrors_of(const satellite *sat, mirror_list *out, glint_error *error);
+glint_status mirrors_of(const satellite *sat, const attitude_plan *plan, mirror_list *out,
+                        glint_error *error);
 
-/* Appends the flashes between from_s and to_s, without their magnitudes; no more than `most` events
- * in all, else *more. limit: largest mirror angle, rad. */
-glint_status flashes_find(watch *w, const mirror_list *mirrors, double (*component_gcrs)[9],
-                          double from_s, double to_s, double limit, size_t most, event_list *out,
-                          bool *more, glint_error *error);
+/* Angle, rad, between the direction to the observer and that into which a surface mirrors the Sun;
+ * pi where one of them stands behind it. All unit, in one frame. */
+double mirror_angle(const double normal[3], const double sun[3], const double observer[3]);
+/* The smallest mirror angle of any phase of the mirror's steady turn about `pole`, or less by up to
+ * 1e-9 rad; what stands behind the surface may count. All unit, in one frame. */
+double mirror_least_angle(const mirror *m, const double pole[3], const double sun[3],
+                          const double observer[3]);
+
+/* What flashes are looked for, and where. */
+typedef struct flash_request {
+    const mirror_list *mirrors;
+    double (*component_gcrs)[9]; /* n_components; scratch */
+    double from_s, to_s;
+    double limit; /* largest mirror angle, rad */
+    size_t first; /* where the pass's flashes begin among the events */
+    size_t most;  /* flashes of a pass */
+} flash_request;
+
+/* Appends the flashes, without their magnitudes and in any order. *until_s: all of them until then
+ * were found; earlier than to_s where there are more, or where it would take too long to find out:
+ * some millions of looks at the satellite. Errors: those of watch_at and satellite_turn;
+ * GLINT_INTERNAL. */
+glint_status flashes_find(watch *w, const flash_request *wanted, event_list *out, double *until_s,
+                          glint_error *error);
 
 #endif

@@ -6,7 +6,11 @@
  * would become ever smaller; there they are a small part of the time over which the direction to
  * the satellite turns, so that the elevation has one extremum at most within a step, and where its
  * rate changes sign the extremum is sought. So passes are found however short they are, and so are
- * gaps in a pass. */
+ * gaps in a pass.
+ *
+ * With a mask there are two cones, those of its lowest and its highest point: outside them, the
+ * same holds. Steps are then so short that the azimuth stays on one straight piece of the mask, or
+ * passes its end by a small part of a piece. */
 #include "base/constants.h"
 #include "base/vec.h"
 #include "lightcurve/pass_parts.h"
@@ -18,8 +22,8 @@
 typedef struct look {
     double t_s;
     double margin; /* elevation above the limit, rad */
-    double rate;   /* of the sine of the elevation, 1/s: for its sign */
-    double safe_s; /* the surface of the cone is not reached before */
+    double rate;   /* of the margin or what rises with it: for its sign */
+    double safe_s; /* the surface of the next cone is not reached before */
     double fine_s; /* small against the time in which the direction turns */
 } look;
 
@@ -59,6 +63,54 @@ static double reach_s(const sighting *seen, double speed_m_s, double distance_m)
     return fmin(time_s, LONGEST_S);
 }
 
+/* How far the satellite is above the horizon, as both appear. */
+static double margin_of(const watch *w, const sighting *seen)
+{
+    const scenario_observer *site = w->viewer.observer;
+    double azimuth, elevation;
+    sighting_place(site, seen, &azimuth, &elevation);
+    return elevation - horizon_limit(&site->horizon, azimuth);
+}
+
+static glint_status margin_at(void *context, double t_s, double *y, glint_error *error)
+{
+    watch *w = context;
+    sighting seen;
+    const glint_status status = watch_at(w, t_s, &seen, error);
+    if (!status) *y = margin_of(w, &seen);
+    return status;
+}
+
+/* Angle from the satellite to the nearest cone on which it can rise or set, rad; 0 between two. */
+static double angle_to_cone(const scenario_observer *site, double elevation)
+{
+    const double lowest = refraction_geometric(&site->air, site->horizon.lowest);
+    const double highest = refraction_geometric(&site->air, site->horizon.highest);
+    return fmax(0, fmax(lowest - elevation, elevation - highest));
+}
+
+/* A mask has corners: its margin's rate is a difference over a time that is short against them. */
+static glint_status mask_look(watch *w, const sighting *seen, double azimuth, double elevation,
+                              look *out, glint_error *error)
+{
+    static const double TURN = 0.02, LEAST_COSINE = 1e-3;
+    static const double PART = 0.25, SHORTEST_S = 1e-3, HALF_MOST_S = 0.1;
+    double velocity[3], before, after;
+    ground_velocity(seen, velocity);
+    /* within a step the elevation changes by TURN at most, and the azimuth runs the faster the
+     * higher it is */
+    const double turning =
+        norm3(velocity) / (seen->range_m * fmax(cos(elevation) - TURN, LEAST_COSINE));
+    const double piece_s =
+        horizon_room(&w->viewer.observer->horizon, azimuth) / fmax(turning, 1e-9);
+    out->fine_s = fmax(fmin(out->fine_s, piece_s), SHORTEST_S);
+    const double half_s = fmin(HALF_MOST_S, PART * out->fine_s);
+    glint_status status = margin_at(w, out->t_s - half_s, &before, error);
+    if (!status) status = margin_at(w, out->t_s + half_s, &after, error);
+    if (!status) out->rate = after - before;
+    return status;
+}
+
 static glint_status look_at(watch *w, double t_s, look *out, glint_error *error)
 {
     /* Light time lets the satellite seem faster by v/c at most, 4e-5; the rest is rounding. */
@@ -67,32 +119,21 @@ static glint_status look_at(watch *w, double t_s, look *out, glint_error *error)
     sighting seen;
     const glint_status status = watch_at(w, t_s, &seen, error);
     if (status) return status;
+    const scenario_observer *site = w->viewer.observer;
     double azimuth, elevation, velocity[3], up[3];
-    sky_place(w->s, &seen.frames, seen.sight_gcrs, &azimuth, &elevation);
+    sky_place(site, &seen.frames, seen.sight_gcrs, &azimuth, &elevation);
     ground_velocity(&seen, velocity);
-    mat_tvec(seen.frames.itrs_gcrs, w->s->site.enu_itrs + 6, up);
+    mat_tvec(seen.frames.itrs_gcrs, site->site.enu_itrs + 6, up);
     const double speed = norm3(velocity), away = dot3(velocity, seen.sight_gcrs);
     out->t_s = t_s;
-    out->margin = elevation - w->s->min_elevation;
+    out->margin = margin_of(w, &seen);
     out->rate = (dot3(velocity, up) - away * sin(elevation)) / seen.range_m;
-    const double angle = fabs(out->margin);
+    const double angle = angle_to_cone(site, elevation);
     const double distance_m = seen.range_m * (angle < 0.5 * PI ? sin(angle) : 1);
     out->safe_s = SAFETY * reach_s(&seen, speed, distance_m);
     out->fine_s =
         fmin(FINE * seen.range_m / fmax(speed, 1e-3), FINE_OF_PERIOD * pass_period_s(&seen));
-    return GLINT_OK;
-}
-
-static glint_status margin_at(void *context, double t_s, double *y, glint_error *error)
-{
-    watch *w = context;
-    sighting seen;
-    double azimuth, elevation;
-    const glint_status status = watch_at(w, t_s, &seen, error);
-    if (status) return status;
-    sky_place(w->s, &seen.frames, seen.sight_gcrs, &azimuth, &elevation);
-    *y = elevation - w->s->min_elevation;
-    return GLINT_OK;
+    return site->horizon.n > 0 ? mask_look(w, &seen, azimuth, elevation, out, error) : GLINT_OK;
 }
 
 /* The sine of the elevation: smooth at the zenith, too. */
@@ -102,7 +143,7 @@ static glint_status height_at(watch *w, double t_s, double *y, glint_error *erro
     double up[3];
     const glint_status status = watch_at(w, t_s, &seen, error);
     if (status) return status;
-    mat_tvec(seen.frames.itrs_gcrs, w->s->site.enu_itrs + 6, up);
+    mat_tvec(seen.frames.itrs_gcrs, w->viewer.observer->site.enu_itrs + 6, up);
     *y = dot3(seen.sight_gcrs, up);
     return GLINT_OK;
 }
@@ -150,6 +191,30 @@ static glint_status extremum(watch *w, double a, double b, double *t_s, bool *fo
     return root_find(height_rate_at, w, a, rate_a, b, rate_b, EVENT_TOLERANCE_S, t_s, error);
 }
 
+/* The margin with a sign, for its largest or its smallest value. */
+typedef struct signed_margin {
+    watch *w;
+    double sign;
+} signed_margin;
+
+static glint_status signed_margin_at(void *context, double t_s, double *y, glint_error *error)
+{
+    const signed_margin *m = context;
+    const glint_status status = margin_at(m->w, t_s, y, error);
+    if (!status) *y *= m->sign;
+    return status;
+}
+
+/* Where the margin comes nearest to the other side, between two looks on the same one. */
+static glint_status nearest_approach(watch *w, const look *a, const look *b, double *t_s,
+                                     bool *found, glint_error *error)
+{
+    if (w->viewer.observer->horizon.n == 0) return extremum(w, a->t_s, b->t_s, t_s, found, error);
+    signed_margin m = {w, a->margin >= 0 ? 1 : -1};
+    *found = true;
+    return minimum_find(signed_margin_at, &m, a->t_s, b->t_s, EVENT_TOLERANCE_S, t_s, NULL, error);
+}
+
 /* Appends the horizon crossings between two neighbouring looks. */
 static glint_status crossings_between(watch *w, const look *a, const look *b, root_list *out,
                                       glint_error *error)
@@ -164,7 +229,7 @@ static glint_status crossings_between(watch *w, const look *a, const look *b, ro
     if (!(up * a->rate > 0 && up * b->rate < 0)) return GLINT_OK;
     bool found;
     double top_s, margin;
-    status = extremum(w, a->t_s, b->t_s, &top_s, &found, error);
+    status = nearest_approach(w, a, b, &top_s, &found, error);
     if (!status && found) status = margin_at(w, top_s, &margin, error);
     if (status || !found || (margin >= 0) == (a->margin >= 0)) return status;
     status = crossing(w, a->t_s, a->margin, top_s, margin, &t_s, error);
@@ -187,13 +252,13 @@ static glint_status add_span(pass_span_list *list, pass_span span, glint_error *
 }
 
 /* From crossings, which turn up into down and back, to spans. */
-static glint_status make_spans(const root_list *crossings, bool up, double end_s,
-                               pass_span_list *out, glint_error *error)
+static glint_status make_spans(const root_list *crossings, const scenario_observer *site, bool up,
+                               double end_s, pass_span_list *out, glint_error *error)
 {
-    pass_span span = {.up_at_start = up};
+    pass_span span = {.up_at_start = up, .site = site};
     for (size_t k = 0; k < crossings->n; k++, up = !up) {
         if (!up) {
-            span = (pass_span){.from_s = crossings->items[k]};
+            span = (pass_span){.from_s = crossings->items[k], .site = site};
             continue;
         }
         span.to_s = crossings->items[k];
@@ -219,7 +284,8 @@ glint_status pass_spans_find(watch *w, pass_span_list *out, glint_error *error)
         if (!status) status = crossings_between(w, &before, &now, &crossings, error);
         before = now;
     }
-    if (!status) status = make_spans(&crossings, up_at_start, end_s, out, error);
+    if (!status)
+        status = make_spans(&crossings, w->viewer.observer, up_at_start, end_s, out, error);
     root_list_free(&crossings);
     return status;
 }

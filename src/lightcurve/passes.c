@@ -29,15 +29,6 @@ typedef struct pass_search {
 
 /* ------------------------------------------------------------------ events */
 
-/* "sunlit" etc. at one moment, for events and for the functions whose roots are sought. */
-static double sun_elevation_at(const glint_scenario *s, const sighting *seen)
-{
-    double sun[3], distance_m, azimuth, elevation;
-    sun_from_point(&seen->frames, seen->site_gcrs_m, s->aberration, sun, &distance_m);
-    sky_place(s, &seen->frames, sun, &azimuth, &elevation);
-    return elevation;
-}
-
 glint_status event_list_add(event_list *list, watch *w, glint_event_kind kind, double t_s,
                             glint_error *error)
 {
@@ -53,14 +44,14 @@ glint_status event_list_add(event_list *list, watch *w, glint_event_kind kind, d
     if (status) return status;
     glint_pass_event *e = &list->items[list->n++];
     const moment *m = &seen.moment;
+    const scenario_observer *site = w->viewer.observer;
     *e = (glint_pass_event){.kind = kind,
                             .t_s = t_s,
                             .range_m = seen.range_m,
-                            .sun_elevation_rad = sun_elevation_at(w->s, &seen),
+                            .sun_elevation_rad = sighting_sun_elevation(w->s, site, &seen),
                             .phase_angle_rad = angle3(m->sun, m->observer),
-                            .sunlit_fraction = eclipse_sunlit_fraction(
-                                m->r_m, m->sun, seen.sun_distance_m, m->itrs_gcrs + 6)};
-    sky_place(w->s, &seen.frames, seen.sight_gcrs, &e->azimuth_rad, &e->elevation_rad);
+                            .sunlit_fraction = sighting_sunlit(w->s, &w->viewer, &seen, NULL)};
+    sighting_place(site, &seen, &e->azimuth_rad, &e->elevation_rad);
     e->site_dark = e->sun_elevation_rad < w->s->sun_elevation_max;
     run_clock_utc(&w->s->clock, t_s, &e->utc);
     return GLINT_OK;
@@ -98,7 +89,8 @@ static glint_status edge_at(void *context, double t_s, double *y, glint_error *e
     const glint_status status = watch_at(e->w, inside_s, &seen, error);
     if (status) return status;
     if (e->kind == EDGE_DARKNESS) {
-        *y = e->w->s->sun_elevation_max - sun_elevation_at(e->w->s, &seen);
+        const glint_scenario *s = e->w->s;
+        *y = s->sun_elevation_max - sighting_sun_elevation(s, e->w->viewer.observer, &seen);
         return GLINT_OK;
     }
     eclipse_discs discs;
@@ -304,18 +296,27 @@ static glint_status add_light(const pass_search *p, light_meter *meter, const ro
 {
     enum { MOST_FLASHES = 1000 };
     const size_t first = events->n;
+    double until_s = 0;
     brightest best = {0, HUGE_VAL};
     glint_status status = measure_events(meter, events, 0, NULL, error);
     for (size_t k = 0; k + 1 < sunlit->n && !status; k += 2) {
         const double from_s = sunlit->items[k], to_s = sunlit->items[k + 1];
         if (!(to_s > from_s)) continue;
         status = brightest_in_span(meter, from_s, to_s, &best, error);
-        if (!status)
-            status = flashes_find(meter->w, &p->mirrors, meter->worker.geometry.component_gcrs,
-                                  from_s, to_s, p->flash_angle, first + MOST_FLASHES, events,
-                                  &pass->more_flashes, error);
+        if (status || pass->more_flashes) continue;
+        const flash_request wanted = {.mirrors = &p->mirrors,
+                                      .component_gcrs = meter->worker.geometry.component_gcrs,
+                                      .from_s = from_s,
+                                      .to_s = to_s,
+                                      .limit = p->flash_angle,
+                                      .first = first,
+                                      .most = MOST_FLASHES};
+        status = flashes_find(meter->w, &wanted, events, &until_s, error);
+        pass->more_flashes = until_s < to_s;
     }
     if (!status) status = measure_events(meter, events, first, &best, error);
+    if (!status && pass->more_flashes)
+        status = event_list_add(events, meter->w, GLINT_MORE_FLASHES, until_s, error);
     if (status || !(best.magnitude < HUGE_VAL)) return status;
     const size_t at = events->n;
     status = event_list_add(events, meter->w, GLINT_BRIGHTEST, best.t_s, error);
@@ -346,12 +347,16 @@ static glint_status fill_pass(const pass_search *p, light_meter *meter, watch *w
     edge edges[N_EDGES] = {0};
     root_list sunlit = {0}, dark = {0};
     const root_list all = {(double[]){span->from_s, span->to_s}, 2, 0};
-    *pass = (glint_pass){.from_s = span->from_s,
+    *pass = (glint_pass){.site = span->site->name,
+                         .from_s = span->from_s,
                          .to_s = span->to_s,
                          .up_at_start = span->up_at_start,
                          .up_at_end = span->up_at_end,
                          .has_magnitudes = p->has_light};
-    w->light_time_s = 0; /* what this thread looked at before must not decide last digits */
+    /* what this thread looked at before must not decide last digits */
+    w->light_time_s = 0;
+    w->viewer = (viewer){.observer = span->site};
+    if (p->has_light) meter->worker.geometry.viewer = w->viewer;
     glint_status status = add_horizon(w, span, &events, error);
     for (int k = 0; k < N_EDGES && !status; k++) {
         status = find_edge(w, span, (edge_kind)k, &edges[k], error);
@@ -415,14 +420,24 @@ static glint_status check_call(const glint_scenario *s, const glint_pass_options
         return error_set(error, GLINT_INPUT, (place){s->documents[0]->path, 0, 0},
                          "[geometry] gives directions, so there is no orbit to look for passes in; "
                          "expected [time], [observer] and [orbit]");
+    bool any_site = false;
+    for (int k = 0; k < s->n_observers; k++)
+        any_site = any_site || s->observers[k].kind == OBSERVER_SITE;
+    if (!any_site)
+        return error_set(error, GLINT_INPUT, s->observers[0].where,
+                         "no observer is a site, so there is no horizon to pass over; expected "
+                         "latitude_deg and longitude_deg in [observer]");
     if (o->threads < 0 || o->threads > MOST_THREADS)
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
                          "%d threads asked for; expected 1 to %d, or 0 for all processors",
                          o->threads, MOST_THREADS);
-    if (!(o->flash_angle_rad >= 0 && o->flash_angle_rad <= 0.5 * PI))
+    const double angle_deg = o->flash_angle_rad / DEG, rounding = 1e-12;
+    if (angle_deg != 0 && !(angle_deg >= GLINT_FLASH_ANGLE_MIN_DEG * (1 - rounding) &&
+                            angle_deg <= GLINT_FLASH_ANGLE_MAX_DEG * (1 + rounding)))
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
-                         "the largest mirror angle of a flash is %g deg; expected 0 to 90",
-                         o->flash_angle_rad / DEG);
+                         "the largest mirror angle of a flash is %g deg; expected %g to %g, or 0 "
+                         "for the usual 1 deg",
+                         angle_deg, GLINT_FLASH_ANGLE_MIN_DEG, GLINT_FLASH_ANGLE_MAX_DEG);
     return GLINT_OK;
 }
 
@@ -430,10 +445,17 @@ static glint_status find_all(pass_search *p, int threads, glint_passes *out, gli
 {
     pass_span_list spans = {0};
     watch w = {.s = p->s};
-    glint_status status = pass_spans_find(&w, &spans, error);
+    glint_status status = GLINT_OK;
+    for (int k = 0; k < p->s->n_observers && !status; k++) {
+        if (p->s->observers[k].kind != OBSERVER_SITE) continue;
+        w.light_time_s = 0;
+        w.viewer = (viewer){.observer = &p->s->observers[k]};
+        status = pass_spans_find(&w, &spans, error);
+    }
     watch_free(&w);
     if (!status && p->has_light) status = tile_plan_shadows(p->s, &p->plan, error);
-    if (!status && p->has_light) status = mirrors_of(&p->s->satellite, &p->mirrors, error);
+    if (!status && p->has_light)
+        status = mirrors_of(&p->s->satellite, &p->s->attitude, &p->mirrors, error);
     if (!status) {
         out->items = calloc(spans.n + 1, sizeof *out->items);
         out->n = out->items ? spans.n : 0;
@@ -502,11 +524,6 @@ const char *glint_passes_band(const glint_passes *passes)
     return passes->s->bands[0]->name;
 }
 
-const char *glint_passes_site(const glint_passes *passes)
-{
-    return passes->s->site_name;
-}
-
 const char *glint_passes_satellite(const glint_passes *passes)
 {
     const glint_scenario *s = passes->s;
@@ -528,6 +545,7 @@ const char *glint_event_name(glint_event_kind kind)
         [GLINT_DARKNESS_END] = "darkness-end",
         [GLINT_BRIGHTEST] = "brightest",
         [GLINT_FLASH] = "flash",
+        [GLINT_MORE_FLASHES] = "more-flashes",
     };
     return (size_t)kind < sizeof NAMES / sizeof *NAMES ? NAMES[kind] : NULL;
 }

@@ -99,21 +99,48 @@ void photometry_rows_free(photometry_rows *rows)
 
 static unsigned flags_of(const glint_scenario *s, const tile_geometry *g, int k, bool bright)
 {
+    const bool at_site = g->who && g->who->kind == OBSERVER_SITE;
     unsigned flags = 0;
-    if (!g->seen[k]) flags |= GLINT_BELOW_HORIZON;
+    if (!g->seen[k]) flags |= at_site ? GLINT_BELOW_HORIZON : GLINT_BLOCKED;
     if (!(g->sunlit[k] > 0))
         flags |= GLINT_UMBRA;
     else if (g->sunlit[k] < 1)
         flags |= GLINT_PENUMBRA;
     if (!flags || flags == GLINT_PENUMBRA) flags |= bright ? 0 : GLINT_DARK;
-    if (!s->has_geometry && g->sun_elevation[k] < s->sun_elevation_max) flags |= GLINT_SITE_DARK;
+    if (at_site && g->sun_elevation[k] < s->sun_elevation_max) flags |= GLINT_SITE_DARK;
+    if (g->moon_covers[k]) flags |= GLINT_MOON_SHADOW;
     return flags;
+}
+
+/* What a row says of time, places and directions; the rest of it is 0. */
+static void fill_place(const glint_scenario *s, const tile_geometry *g, int k, glint_row *out)
+{
+    *out = (glint_row){.t_s = g->t_s[k],
+                       .range_m = g->range_m[k],
+                       .phase_angle_rad = g->phase_angle[k],
+                       .sunlit_fraction = g->sunlit[k],
+                       .azimuth_rad = g->azimuth[k],
+                       .elevation_rad = g->elevation[k],
+                       .sun_elevation_rad = g->sun_elevation[k],
+                       .height_m = g->height_m[k],
+                       .angular_rate_rad_s = g->angular_rate[k],
+                       .site_height_m =
+                           g->who && g->who->kind == OBSERVER_SITE ? g->who->site.height_m : 0,
+                       .has_site = g->who && g->who->kind == OBSERVER_SITE,
+                       .observer = g->who ? g->who->name : ""};
+    if (!s->has_geometry) run_clock_utc(&s->clock, g->t_s[k], &out->utc);
+    if (!s->moon_columns) return;
+    out->moon_azimuth_rad = g->moon_azimuth[k];
+    out->moon_elevation_rad = g->moon_elevation[k];
+    out->moon_separation_rad = g->moon_separation[k];
+    out->moon_illuminated = g->moon_illuminated[k];
 }
 
 void photometry_fill(const glint_scenario *s, const tile_geometry *g, const double *x,
                      const photometry_rows *out)
 {
     const model *m = &s->satellite.model;
+    const bool at_site = g->who && g->who->kind == OBSERVER_SITE;
     for (int k = 0; k < g->n; k++) {
         const size_t row = (size_t)k;
         double *flux = out->flux_ratio + row * (size_t)s->n_bands;
@@ -122,7 +149,7 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
         double *component = out->share_component + row * (size_t)m->n_components;
         memset(material, 0, (size_t)m->n_materials * sizeof *material);
         memset(component, 0, (size_t)m->n_components * sizeof *component);
-        const double airmass = s->has_geometry ? 0 : airmass_of(s, g->elevation[k]);
+        const double airmass = at_site ? airmass_of(s, g->elevation[k]) : 0;
         const double weight =
             x && g->seen[k] ? g->sun_weight[k] / (g->range_m[k] * g->range_m[k]) : 0;
         bool bright = false;
@@ -138,25 +165,12 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
                 fill_shares(m, x, k, total, material, component);
         }
         glint_row *r = &out->rows[k];
-        *r = (glint_row){.t_s = g->t_s[k],
-                         .range_m = g->range_m[k],
-                         .phase_angle_rad = g->phase_angle[k],
-                         .sunlit_fraction = g->sunlit[k],
-                         .azimuth_rad = g->azimuth[k],
-                         .elevation_rad = g->elevation[k],
-                         .sun_elevation_rad = g->sun_elevation[k],
-                         .airmass = airmass,
-                         .height_m = g->height_m[k],
-                         .angular_rate_rad_s = g->angular_rate[k],
-                         .site_height_m = s->site.height_m,
-                         .flux_ratio = flux,
-                         .magnitude = magnitude,
-                         .share_material = material,
-                         .share_component = component};
-        if (s->has_geometry)
-            r->azimuth_rad = r->elevation_rad = r->sun_elevation_rad = 0;
-        else
-            run_clock_utc(&s->clock, g->t_s[k], &r->utc);
+        fill_place(s, g, k, r);
+        r->airmass = airmass;
+        r->flux_ratio = flux;
+        r->magnitude = magnitude;
+        r->share_material = material;
+        r->share_component = component;
         r->flags = flags_of(s, g, k, bright);
     }
 }

@@ -1,5 +1,7 @@
 #include "lightcurve/tile.h"
 
+#include "lightcurve/shadows.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,8 +18,11 @@ glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_
 {
     *out = NULL;
     if (s->self_shadows == SHADOWS_NONE) return GLINT_OK;
-    const glint_status status = satellite_plan_shadows(&s->satellite, out, error);
-    if (!status && visibility_is_trivial(*out)) {
+    glint_status status = satellite_plan_shadows(&s->satellite, out, error);
+    const bool wanted = !status && !visibility_is_trivial(*out);
+    if (wanted && s->self_shadows == SHADOWS_RAYS)
+        status = visibility_use_rays(*out, &s->satellite.model, s->rays_per_facet, error);
+    if (!wanted || status) {
         visibility_free(*out);
         *out = NULL;
     }
@@ -28,7 +33,7 @@ glint_status tile_fit_threads(int n_facets, int wanted, int *n_threads, glint_er
 {
     /* What visibility_scratch_make takes for a facet, bytes: its corners and its bounds as the Sun
      * and as the observer see them; rather too much. */
-    static const double VIEWS = 512;
+    static const double VIEWS = 768;
     const double bytes = n_facets * (TILE * sizeof(double) + VIEWS);
     if (bytes > TILE_MOST_SHADOW_BYTES)
         return error_set(error, GLINT_INPUT, PLACE_NONE,
@@ -69,20 +74,6 @@ void tile_worker_free(tile_worker *w)
     *w = (tile_worker){0};
 }
 
-/* The fraction of every facet that is lit and seen, in the lanes whose rows are bright. */
-static glint_status find_visible(const glint_scenario *s, tile_worker *w, glint_error *error)
-{
-    const size_t n_components = (size_t)s->satellite.n_components;
-    for (int k = 0; k < w->tile.n; k++) {
-        if (!w->tile.seen[k] || !(w->tile.sun_weight[k] > 0)) continue;
-        const glint_status status =
-            visibility_fill(w->plan, w->scratch, w->geometry.poses + (size_t)k * n_components,
-                            w->tile.sun[k], w->tile.observer[k], k, w->visible, error);
-        if (status) return status;
-    }
-    return GLINT_OK;
-}
-
 /* Fills in the Sun's disc in every lane, a point in those that nobody asks for; false where all of
  * them take the Sun for a point. */
 static bool fill_disc(const glint_scenario *s, const tile_geometry *tile, source_disc *disc)
@@ -100,7 +91,7 @@ glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const phot
                              glint_error *error)
 {
     if (w->tile.any_bright && w->plan) {
-        const glint_status status = find_visible(s, w, error);
+        const glint_status status = shadows_fill(s, w, error);
         if (status) return status;
     }
     if (w->tile.any_bright) {

@@ -16,7 +16,7 @@ typedef struct tile_worker {
 } tile_worker;
 
 /* Plans the shadows that parts cast on each other; *out is NULL where none are wanted or none can
- * be. Errors: GLINT_INTERNAL (memory). */
+ * be. Errors: GLINT_INTERNAL (memory); those of visibility_use_rays. */
 glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_error *error);
 
 /* Work space of all threads for shadows, bytes: more is neither needed nor to be had everywhere. */

@@ -138,7 +138,9 @@ static void hold_expectations(verification *v, const glint_row *row)
 {
     for (int i = 0; i < v->s->n_expectations; i++) {
         const expectation *e = &v->s->expectations[i];
-        const bool here = e->by_row ? e->row == v->row : fabs(row->t_s - e->t_s) <= SAME_TIME_S;
+        const bool here = e->by_row ? e->row == v->row
+                                    : fabs(row->t_s - e->t_s) <= SAME_TIME_S &&
+                                          string_equal(row->observer, e->observer);
         if (!here || v->met_row[i]) continue;
         char label[64];
         snprintf(label, sizeof label, "t_s = %.9g (row %lld)", row->t_s, (long long)v->row);
@@ -216,6 +218,7 @@ static void judge_requirements(verification *v)
             deviate(v, r->where, "no row fits 'when', so the requirement says nothing");
             continue;
         }
+        const bool several = v->s->n_observers > 1;
         const double fraction = (double)t->met / (double)t->selected;
         if (fraction >= r->for_fraction) continue;
         char when[64];
@@ -227,9 +230,10 @@ static void judge_requirements(verification *v)
             snprintf(when, sizeof when, "t_s = %.9g", t->worst_row.t_s);
         deviate(v, r->where,
                 "%s is fainter than required in %.4g %% of %lld rows; expected %.4g %%; it breaks "
-                "its limit of %.3f most at %s with %.3f",
+                "its limit of %.3f most at %s%s%s with %.3f",
                 r->column, 100 * fraction, (long long)t->selected, 100 * r->for_fraction,
-                t->worst_limit, when, t->worst);
+                t->worst_limit, when, several ? " for " : "", several ? t->worst_row.observer : "",
+                t->worst);
     }
 }
 
@@ -243,7 +247,8 @@ static void judge_missing_rows(verification *v)
             deviate(v, e->where, "there is no row %lld; the run has %lld rows", (long long)e->row,
                     (long long)v->row);
         else
-            deviate(v, e->where, "there is no row at t_s = %.9g", e->t_s);
+            deviate(v, e->where, "there is no row at t_s = %.9g%s%s", e->t_s,
+                    e->observer[0] ? " of " : "", e->observer);
     }
     if (v->s->has_expected_table && v->row != v->s->expected.csv.n_rows) {
         v->verdict.expectations++;

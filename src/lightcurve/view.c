@@ -381,6 +381,7 @@ static glint_status look(looker *l, const visibility *shadows, const visibility 
     glint_row row = {0};
     glint_status status = tile_worker_make(s, shadows, &l->worker, error);
     if (status) return status;
+    g->viewer = (viewer){.observer = s->observers}; /* the first, where there are several */
     g->body = calloc(TILE, sizeof *g->body);
     if (!g->poses) g->poses = calloc(TILE * n_components, sizeof *g->poses);
     if (!g->body || !g->poses) return error_no_memory(error);

@@ -28,7 +28,7 @@ glint_status watch_cover(watch *w, double t_s, glint_error *error)
 glint_status watch_at(watch *w, double t_s, sighting *out, glint_error *error)
 {
     glint_status status = watch_cover(w, t_s, error);
-    if (!status) status = sighting_at(w->s, w->grid, t_s, w->light_time_s, &w->cursor, out, error);
+    if (!status) status = sighting_at(w->s, w->grid, t_s, w->light_time_s, &w->viewer, out, error);
     if (!status) w->light_time_s = out->light_time_s;
     return status;
 }

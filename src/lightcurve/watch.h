@@ -1,16 +1,17 @@
-/* watch.h: the satellite as seen from the site at any moment, for searches that move through time.
+/* watch.h: the satellite as one observer sees it at any moment, for searches that move through
+ * time.
  */
 #ifndef GLINT_LIGHTCURVE_WATCH_H
 #define GLINT_LIGHTCURVE_WATCH_H
 
 #include "lightcurve/geometry.h"
 
-/* A watcher; zero-initialise, set `s`. One for each thread. */
+/* A watcher; zero-initialise, set `s` and the viewer's observer. One for each thread. */
 typedef struct watch {
     const glint_scenario *s; /* borrowed */
     frame_grid *grid;        /* owned; covers from_s to to_s */
     double from_s, to_s;
-    orbit_cursor cursor;
+    viewer viewer;
     double light_time_s; /* of the last look: the next guess */
 } watch;
 

@@ -115,6 +115,14 @@ glint_status attitude_at(const attitude *a, const moment *m, double body_gcrs[9]
     return GLINT_OK;
 }
 
+attitude_turning attitude_turning_of(const attitude *a)
+{
+    attitude_turning out = {0};
+    if (a->law->turning) a->law->turning(a, &out);
+    if (a->has_offset) mat_vec(a->offset, out.axis_body, out.axis_body);
+    return out;
+}
+
 bool attitude_wants(const attitude *a, direction_kind kind)
 {
     return a->to.kind == kind || a->second_to.kind == kind;

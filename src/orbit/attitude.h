@@ -63,6 +63,13 @@ typedef struct attitude {
 
 enum { ATTITUDE_NEEDS_ORBIT = 1u }; /* needs r, v: not for runs without an orbit */
 
+/* How a law turns the body by itself, besides following the directions that it looks at. */
+typedef struct attitude_turning {
+    double fastest_rad_s; /* it turns no faster; 0: not at all */
+    bool is_steady;       /* it is one turn, at that rate for ever, about this axis: */
+    double axis_body[3];  /* unit */
+} attitude_turning;
+
 typedef struct attitude_law {
     const char *name, *doc;
     const attitude_key *keys;
@@ -74,6 +81,8 @@ typedef struct attitude_law {
     /* body_gcrs: v_body = R v_gcrs. Errors (GLINT_INPUT): directions parallel within 1e-9 at this
      * moment. */
     glint_status (*at)(const attitude *a, const moment *m, double body_gcrs[9], glint_error *error);
+    /* Fills *out, which comes zeroed, in the law's axes. NULL: it only follows directions. */
+    void (*turning)(const attitude *a, attitude_turning *out);
 } attitude_law;
 
 /* Law k of the table, counted from 0; NULL past the end. */
@@ -95,6 +104,8 @@ void attitude_free(attitude *a);
  * (GLINT_INPUT): a direction is not defined, or two are parallel, at this moment; saying when. */
 glint_status attitude_at(const attitude *a, const moment *m, double body_gcrs[9],
                          glint_error *error);
+/* How it turns by itself; axis in body axes, with the offset. */
+attitude_turning attitude_turning_of(const attitude *a);
 /* True when the law looks at that direction: whether the Moon has to be computed. */
 bool attitude_wants(const attitude *a, direction_kind kind);
 

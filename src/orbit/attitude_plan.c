@@ -137,3 +137,13 @@ bool attitude_plan_gap(const attitude_plan *plan, int k, double end_s, double *g
     if (!leg->law.table || from_s > to_s) return false;
     return attitude_table_gap(leg->law.table, from_s, to_s, gap_s);
 }
+
+attitude_turning attitude_plan_turning(const attitude_plan *plan)
+{
+    attitude_turning out = {0};
+    if (plan->n == 1) return attitude_turning_of(&plan->legs[0].law);
+    for (int k = 0; k < plan->n; k++)
+        out.fastest_rad_s =
+            fmax(out.fastest_rad_s, attitude_turning_of(&plan->legs[k].law).fastest_rad_s);
+    return out;
+}

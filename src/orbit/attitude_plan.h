@@ -39,6 +39,9 @@ glint_status attitude_plan_settle(attitude_plan *plan, int k, const moment *star
 glint_status attitude_plan_at(const attitude_plan *plan, const moment *m, double body_gcrs[9],
                               glint_error *error);
 /* True when some law looks at that direction. */
+/* How the laws turn the body by themselves, slews and tables apart: steadily only where there is
+ * one law and it does. */
+attitude_turning attitude_plan_turning(const attitude_plan *plan);
 bool attitude_plan_wants(const attitude_plan *plan, direction_kind kind);
 /* The first time after t_s at which the rates of turning may jump: a law or a slew begins or ends,
  * a row of a table; INFINITY where there is none. */

@@ -78,6 +78,13 @@ static glint_status at(const attitude *a, const moment *m, double body_gcrs[9], 
     return GLINT_OK;
 }
 
+static void turning(const attitude *a, attitude_turning *out)
+{
+    out->fastest_rad_s = fabs(a->rate_rad_s);
+    out->is_steady = true;
+    copy3(a->axis, out->axis_body);
+}
+
 const attitude_law attitude_spin = {
     .name = "spin",
     .doc = "steady rotation about a body axis that is held along a pole",
@@ -85,4 +92,5 @@ const attitude_law attitude_spin = {
     .n_keys = N_KEYS,
     .prepare = prepare,
     .at = at,
+    .turning = turning,
 };

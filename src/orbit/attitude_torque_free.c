@@ -57,6 +57,13 @@ static glint_status at(const attitude *a, const moment *m, double body_gcrs[9], 
     return GLINT_OK;
 }
 
+static void turning(const attitude *a, attitude_turning *out)
+{
+    out->fastest_rad_s = torque_free_fastest(&a->tumble);
+    out->is_steady = a->tumble.is_steady;
+    copy3(a->tumble.steady_axis, out->axis_body);
+}
+
 const attitude_law attitude_torque_free = {
     .name = "torque-free",
     .doc = "free tumbling of a rigid body; the body axes are its principal axes",
@@ -64,4 +71,5 @@ const attitude_law attitude_torque_free = {
     .n_keys = N_KEYS,
     .prepare = prepare,
     .at = at,
+    .turning = turning,
 };

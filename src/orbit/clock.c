@@ -4,6 +4,7 @@
 #include "base/text.h"
 
 #include <erfa.h>
+#include <erfam.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -265,6 +266,14 @@ void utc_to_jd(const utc_time *utc, double utc_jd[2])
              &utc_jd[0], &utc_jd[1]);
 }
 
+double utc_day_length_s(double jd)
+{
+    int year, month, day;
+    double fraction;
+    eraJd2cal(jd, 0.0, &year, &month, &day, &fraction);
+    return DAY_S + (has_leap_second(year, month, day) ? 1.0 : 0.0);
+}
+
 void utc_to_tt(const utc_time *utc, double tt_jd[2], double *tai_minus_utc_s, bool *dubious)
 {
     double utc_jd[2];
@@ -440,8 +449,30 @@ void run_clock_tt(const run_clock *clock, double t_s, double tt_jd[2])
 
 void run_clock_ut1(const run_clock *clock, double t_s, double ut1_jd[2])
 {
-    const double ut1_minus_tt_s = clock->dut1_s - clock->tai_minus_utc_s - TT_MINUS_TAI_S;
-    jd_after(clock->tt_jd, t_s, ut1_minus_tt_s, ut1_jd);
+    double ut1_minus_tai_s = clock->dut1_s - clock->tai_minus_utc_s;
+    if (clock->eop) {
+        double tt_jd[2];
+        eop_values values;
+        run_clock_tt(clock, t_s, tt_jd);
+        eop_at(clock->eop, tt_jd, &values);
+        ut1_minus_tai_s = values.ut1_minus_tai_s;
+    }
+    jd_after(clock->tt_jd, t_s, ut1_minus_tai_s - TT_MINUS_TAI_S, ut1_jd);
+}
+
+void utc_from_mjd(int mjd, glint_utc *out)
+{
+    double fraction;
+    *out = (glint_utc){0};
+    eraJd2cal(ERFA_DJM0, mjd, &out->year, &out->month, &out->day, &fraction);
+}
+
+void run_clock_orient(run_clock *clock, const eop_table *eop)
+{
+    eop_values values;
+    eop_at(eop, clock->tt_jd, &values);
+    clock->eop = eop;
+    clock->dut1_s = values.ut1_minus_tai_s + clock->tai_minus_utc_s;
 }
 
 /* ------------------------------------------------------------------- writing */

@@ -2,7 +2,7 @@
 #ifndef GLINT_ORBIT_CLOCK_H
 #define GLINT_ORBIT_CLOCK_H
 
-#include "base/error.h"
+#include "orbit/eop.h"
 
 /* A moment of UTC as people write it; second may be 60.x on a day that ends in a leap second. */
 typedef struct utc_time {
@@ -43,6 +43,8 @@ void tt_write_utc(const double tt_jd[2], char *out);
 /* UTC as ERFA's two-part quasi-JD (0h of the day, fraction of the day's true length). Pass only
  * checked times. */
 void utc_to_jd(const utc_time *utc, double utc_jd[2]);
+/* Length of the UTC day that begins at a JD, s: 86 400, or 86 401 where a leap second ends it. */
+double utc_day_length_s(double jd);
 /* UTC to TT as two-part JD, with TAI-UTC in s; inside a leap second that is still the value of the
  * day that the leap second ends. Pass only checked times. tai_minus_utc_s, dubious: NULL allowed;
  * dubious: true when leap seconds are not known for that year. */
@@ -53,8 +55,8 @@ void utc_jd_to_tt(const double utc_jd[2], double tt_jd[2], bool *dubious);
 double jd_difference_s(const double a[2], const double b[2]);
 
 /* The time line of a run: TT seconds from its start. Leap seconds that fall inside shift UTC but
- * not TT. UT1 = TT - 32.184 s - (TAI-UTC) + DUT1 with the TAI-UTC and DUT1 of the start throughout.
- * Immutable after run_clock_start. */
+ * not TT. UT1 = TT - 32.184 s - (TAI-UTC) + DUT1 with the TAI-UTC and DUT1 of the start throughout;
+ * or, after run_clock_orient, of measured Earth orientation. Immutable after these. */
 enum { CLOCK_MAX_LEAPS = 64 }; /* 27 leap seconds were inserted from 1972 to 2017 */
 typedef struct run_clock {
     double tt_jd[2];        /* TT of the start */
@@ -68,10 +70,15 @@ typedef struct run_clock {
     int64_t leap_s[CLOCK_MAX_LEAPS]; /* when each 23:59:60 begins: s since 0h UTC of the start's
                                         day, earlier leap seconds counted */
     bool dubious;                    /* leap seconds not known for the start or the end */
+    const eop_table *eop;            /* borrowed; NULL: the same DUT1 throughout */
 } run_clock;
 
 /* start: a checked time; span_s: length of the run in TT s, 0 to 6e9; dut1_s: UT1-UTC in s. */
 void run_clock_start(const utc_time *start, double span_s, double dut1_s, run_clock *clock);
+/* 0h UTC of a modified Julian day, years 1 to 9999. */
+void utc_from_mjd(int mjd, glint_utc *out);
+/* From now on UT1 is that of a table, which must outlive the clock and cover the run. */
+void run_clock_orient(run_clock *clock, const eop_table *eop);
 /* UTC at t_s >= 0 within the span, rounded to the microsecond (never ...:60.000000 but inside a
  * leap second). */
 void run_clock_utc(const run_clock *clock, double t_s, glint_utc *out);

@@ -2,6 +2,7 @@
 
 #include "base/constants.h"
 #include "base/vec.h"
+#include "orbit/moon.h"
 
 /* (equatorial/polar radius)^2 - 1 of WGS84. */
 static const double STRETCH = 1.0 / ((1.0 - EARTH_FLATTENING) * (1.0 - EARTH_FLATTENING)) - 1.0;
@@ -65,6 +66,33 @@ void eclipse_discs_at(const double r_m[3], const double sun[3], double sun_dista
     out->sun = asin(fmin(1.0, SUN_RADIUS_M / sun_distance_m));
     out->earth = limb_angle(r, side, pole);
     out->separation = atan2(sin_d, dot3(sun, down));
+}
+
+double eclipse_moon_fraction(const double moon_m[3], const double sun[3], double sun_distance_m)
+{
+    const double distance_m = norm3(moon_m);
+    if (!(distance_m > MOON_RADIUS_M)) return 0.0;
+    /* Nearly always the Moon is somewhere else. From 20 000 km on, both radii together are less
+     * than 5.3 deg, and 0.99 is the cosine of 8.1 deg. */
+    static const double FAR_M = 2e7, APART = 0.99;
+    if (distance_m > FAR_M && dot3(moon_m, sun) < APART * distance_m) return 1.0;
+    const double sun_radius = asin(fmin(1.0, SUN_RADIUS_M / sun_distance_m));
+    const double moon_radius = asin(MOON_RADIUS_M / distance_m);
+    return eclipse_disc_fraction(sun_radius, moon_radius, angle3(moon_m, sun));
+}
+
+bool eclipse_earth_between(const double a_m[3], const double b_m[3], const double pole[3])
+{
+    double a[3], way[3], b[3];
+    scale3(a_m, 1.0 / EARTH_RADIUS_M, a);
+    scale3(b_m, 1.0 / EARTH_RADIUS_M, b);
+    sub3(b, a, way);
+    /* The point of the straight line that comes nearest to the centre, after the stretch that makes
+     * the ellipsoid a sphere, if it lies between the two. */
+    const double aa = stretched_dot(a, a, pole), aw = stretched_dot(a, way, pole);
+    const double ww = stretched_dot(way, way, pole);
+    if (!(aw < 0.0 && -aw < ww)) return false;
+    return aa * ww - aw * aw < ww;
 }
 
 double eclipse_disc_fraction(double a, double b, double d)

@@ -1,6 +1,9 @@
-/* eclipse.h: how much of the Sun's disc a satellite sees past the Earth. */
+/* eclipse.h: how much of the Sun's disc a satellite sees past the Earth and the Moon, and what the
+ * Earth hides. */
 #ifndef GLINT_ORBIT_ECLIPSE_H
 #define GLINT_ORBIT_ECLIPSE_H
+
+#include <stdbool.h>
 
 /* Visible fraction, 0 to 1, of a uniform solar disc above the limb of the WGS84 ellipsoid.
  * r_m: geocentre to satellite; sun: unit vector from the satellite to the (apparent) Sun;
@@ -22,6 +25,15 @@ typedef struct eclipse_discs {
  * where separation <= earth - sun. The satellite must be outside the ellipsoid. */
 void eclipse_discs_at(const double r_m[3], const double sun[3], double sun_distance_m,
                       const double pole[3], eclipse_discs *out);
+
+/* Visible fraction, 0 to 1, of a uniform solar disc beside the Moon's: the overlap of two plane
+ * discs. moon_m: from the satellite to the Moon, m, not zero; sun: unit; sun_distance_m; in one
+ * frame. A satellite inside the Moon is dark. */
+double eclipse_moon_fraction(const double moon_m[3], const double sun[3], double sun_distance_m);
+
+/* True when the WGS84 ellipsoid stands between two points outside it; m from the geocentre; pole:
+ * unit vector along the Earth's axis; all in one frame. Refraction is not modelled. */
+bool eclipse_earth_between(const double a_m[3], const double b_m[3], const double pole[3]);
 
 /* Uncovered fraction of a disc of angular radius a behind one of radius b at distance d (all rad,
  * at least 0, treated as plane). a = 0 is a point: 1 or 0. */

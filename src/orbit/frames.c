@@ -1,6 +1,8 @@
 #include "orbit/frames.h"
 
+#include "base/clones.h"
 #include "base/constants.h"
+#include "base/fasttrig.h"
 #include "base/vec.h"
 
 #include <erfa.h>
@@ -28,7 +30,8 @@ typedef struct node_table {
 
 struct frame_grid {
     run_clock clock;
-    double polar[9]; /* polar motion without s': v_itrs = R v_tirs */
+    double polar[9]; /* polar motion without s': v_itrs = R v_tirs; where the clock has none */
+    bool still;      /* there is none */
     bool full;       /* evaluate at every moment, use no table */
     node_table cip;  /* X, Y, s */
     node_table sun;  /* see sun_state */
@@ -136,6 +139,7 @@ glint_status frame_grid_prepare(const run_clock *clock, const earth_orientation 
     double polar[3][3];
     eraPom00(orientation->xp_rad, orientation->yp_rad, 0.0, polar);
     memcpy(g->polar, polar, sizeof g->polar);
+    g->still = orientation->xp_rad == 0.0 && orientation->yp_rad == 0.0;
     g->full = step_s > CIP_STEP_DAYS * DAY_S;
     return g->full || cover_stretch(g, t0_s, t1_s) ? GLINT_OK : error_no_memory(error);
 }
@@ -150,30 +154,27 @@ void frame_grid_free(frame_grid *grid)
 
 /* -------------------------------------------------------------- evaluation */
 
+/* What follows is worked out moment by moment, or for a tile of moments at once: by the same lines,
+ * and so to the same bits. */
+
 /* Lagrange's cubic through four nodes at -1, 0, 1, 2; 0 <= u < 1. */
-static void cip_interpolate(const node_table *table, double days, double xys[CIP_WIDTH])
+static inline void cip_between(const double *node, double u, double xys[CIP_WIDTH])
 {
-    double room[CIP_NODES * CIP_WIDTH];
-    const double position = days / CIP_STEP_DAYS, base = floor(position), u = position - base;
-    const double *node = table_nodes(table, (int64_t)base - 1, CIP_NODES, room);
-    const double a = u + 1.0, b = u - 1.0, c = u - 2.0;
-    const double w[CIP_NODES] = {-u * b * c / 6.0, a * b * c / 2.0, -a * u * c / 2.0,
-                                 a * u * b / 6.0};
+    const double a = u + 1.0, b = u - 1.0, c = u - 2.0, sixth = 1.0 / 6.0;
+    const double w0 = -sixth * u * b * c, w1 = 0.5 * a * b * c, w2 = -0.5 * a * u * c,
+                 w3 = sixth * a * u * b;
     for (int i = 0; i < CIP_WIDTH; i++)
-        xys[i] = w[0] * node[i] + w[1] * node[3 + i] + w[2] * node[6 + i] + w[3] * node[9 + i];
+        xys[i] = w0 * node[i] + w1 * node[3 + i] + w2 * node[6 + i] + w3 * node[9 + i];
 }
 
 /* Hermite's cubic for the Sun's place and its derivative for the rate; the Sun's own velocity (some
  * 15 m/s, over years) is linear between nodes. */
-static void sun_interpolate(const node_table *table, double days, double state[SUN_WIDTH])
+static inline void sun_between(const double *node, double u, double state[SUN_WIDTH])
 {
-    double room[SUN_NODES * SUN_WIDTH];
-    const double position = days / SUN_STEP_DAYS, base = floor(position), u = position - base;
-    const double *node = table_nodes(table, (int64_t)base, SUN_NODES, room),
-                 *next = node + SUN_WIDTH;
+    const double *next = node + SUN_WIDTH;
     const double h_s = SUN_STEP_DAYS * DAY_S, v = 1.0 - u;
     const double step = u * u * (3.0 - 2.0 * u), start = u * v * v * h_s, end = -u * u * v * h_s;
-    const double d_step = 6.0 * u * v / h_s, d_start = v * (1.0 - 3.0 * u),
+    const double d_step = 6.0 / h_s * (u * v), d_start = v * (1.0 - 3.0 * u),
                  d_end = u * (3.0 * u - 2.0);
     for (int i = 0; i < 3; i++) {
         const double change = next[i] - node[i];
@@ -185,7 +186,7 @@ static void sun_interpolate(const node_table *table, double days, double state[S
 
 /* GCRS to the intermediate frame, before the turn by -s about its pole: IERS Conventions 2010,
  * equation 5.10 (transposed), which is eraC2ixys without its six trigonometric functions. */
-static void pole_matrix(double x, double y, double out[9])
+static inline void pole_matrix(double x, double y, double out[9])
 {
     const double cos_d = sqrt(1.0 - x * x - y * y), a = 1.0 / (1.0 + cos_d);
     out[0] = 1.0 - a * x * x, out[1] = -a * x * y, out[2] = -x;
@@ -193,27 +194,17 @@ static void pole_matrix(double x, double y, double out[9])
     out[6] = x, out[7] = y, out[8] = cos_d;
 }
 
-/* out = R3(angle) m, where R3 turns the axes about the third one. */
-static void turn_about_pole(double angle, const double m[9], double out[9])
+/* R3(angle) M, where M is the pole's matrix and R3 turns the axes about the third one. */
+static inline void turn_about_pole(double angle, const double xys[CIP_WIDTH], double out[9])
 {
-    const double c = cos(angle), s = sin(angle);
+    double s, c, m[9];
+    near_sin_cos(angle, &s, &c);
+    pole_matrix(xys[0], xys[1], m);
     for (int j = 0; j < 3; j++) {
         out[j] = c * m[j] + s * m[3 + j];
         out[3 + j] = c * m[3 + j] - s * m[j];
         out[6 + j] = m[6 + j];
     }
-}
-
-static void sun_at(const frame_grid *grid, const double tt_jd[2], frame_set *out)
-{
-    double state[SUN_WIDTH];
-    if (grid->full)
-        sun_state(tt_jd[0], tt_jd[1], state);
-    else
-        sun_interpolate(&grid->sun, days_since_j2000(tt_jd), state);
-    copy3(state, out->sun_gcrs_m);
-    copy3(state + 6, out->sun_velocity_m_s);
-    sub3(state + 6, state + 3, out->earth_velocity_m_s);
 }
 
 /* The Earth rotation angle, rad, whole turns left out: IERS Conventions 2010, equation 5.15, which
@@ -237,27 +228,190 @@ static double gmst82_minus_rotation(const double ut1_jd[2])
     return TWO_PI * (turns - 0.7790572732640 - 0.00273781191135448 * days);
 }
 
-/* With M the pole's matrix, ITRS = W R3(ERA + s' - s) M GCRS: the locators s and s' are turns about
- * the axis of the Earth's rotation and join its angle. TEME has no s', ITRS = W R3(GMST82) TEME;
- * so W, polar motion, cancels in GCRS = M^T R3(GMST82 - ERA - s' + s) TEME. */
-void frame_grid_at(const frame_grid *grid, double t_s, unsigned wanted, frame_set *out)
+/* The TIO locator s', rad: IERS Conventions 2010, equation 5.13, which is eraSp00. */
+static double tio_locator(double tt_days)
 {
-    double tt_jd[2], ut1_jd[2], xys[CIP_WIDTH], pole[9];
+    return -47e-6 * ARCSEC / 36525.0 * tt_days;
+}
+
+/* What the clocks say at one moment. */
+typedef struct clock_angles {
+    double tt_days;  /* from J2000.0 */
+    double rotation; /* ERA + s', rad */
+    double mean;     /* GMST82 - ERA - s', rad; only with FRAMES_TEME */
+} clock_angles;
+
+static clock_angles read_clocks(const frame_grid *grid, double t_s, unsigned wanted)
+{
+    double tt_jd[2], ut1_jd[2];
     run_clock_tt(&grid->clock, t_s, tt_jd);
     run_clock_ut1(&grid->clock, t_s, ut1_jd);
-    if (grid->full)
-        cip_state(tt_jd[0], tt_jd[1], xys);
-    else
-        cip_interpolate(&grid->cip, days_since_j2000(tt_jd), xys);
-    pole_matrix(xys[0], xys[1], pole);
-    const double locators = eraSp00(tt_jd[0], tt_jd[1]) - xys[2];
-    turn_about_pole(rotation_angle(ut1_jd) + locators, pole, out->itrs_gcrs);
-    mat_mul(grid->polar, out->itrs_gcrs, out->itrs_gcrs);
+    clock_angles out = {.tt_days = days_since_j2000(tt_jd)};
+    const double locator = tio_locator(out.tt_days);
+    out.rotation = rotation_angle(ut1_jd) + locator;
+    if (wanted & FRAMES_TEME) out.mean = gmst82_minus_rotation(ut1_jd) - locator;
+    return out;
+}
+
+/* Turns TIRS into ITRS: polar motion of the clock's table or of the grid, without s'. */
+static void add_polar_motion(const frame_grid *grid, double tt_days, double itrs_gcrs[9])
+{
+    if (grid->clock.eop) {
+        const double tt_jd[2] = {ERFA_DJ00, tt_days};
+        eop_values values;
+        double rows[3][3], polar[9];
+        eop_at(grid->clock.eop, tt_jd, &values);
+        eraPom00(values.xp_rad, values.yp_rad, 0.0, rows);
+        memcpy(polar, rows, sizeof polar);
+        mat_mul(polar, itrs_gcrs, itrs_gcrs);
+    } else if (!grid->still) {
+        mat_mul(grid->polar, itrs_gcrs, itrs_gcrs);
+    }
+}
+
+static void keep_sun(const double state[SUN_WIDTH], frame_set *out)
+{
+    copy3(state, out->sun_gcrs_m);
+    copy3(state + 6, out->sun_velocity_m_s);
+    sub3(state + 6, state + 3, out->earth_velocity_m_s);
+}
+
+/* With M the pole's matrix, ITRS = W R3(ERA + s' - s) M GCRS: the locators s and s' are turns about
+ * the axis of the Earth's rotation and join its angle. TEME has no s', ITRS = W R3(GMST82) TEME;
+ * so W, polar motion, cancels in TEME = R3(s' - s + ERA - GMST82) M GCRS. */
+void frame_grid_at(const frame_grid *grid, double t_s, unsigned wanted, frame_set *out)
+{
+    double xys[CIP_WIDTH], state[SUN_WIDTH], room[CIP_NODES * CIP_WIDTH];
+    const clock_angles clock = read_clocks(grid, t_s, wanted);
+    if (grid->full) {
+        cip_state(ERFA_DJ00, clock.tt_days, xys);
+    } else {
+        const double position = clock.tt_days / CIP_STEP_DAYS, base = floor(position);
+        cip_between(table_nodes(&grid->cip, (int64_t)base - 1, CIP_NODES, room), position - base,
+                    xys);
+    }
+    turn_about_pole(clock.rotation - xys[2], xys, out->itrs_gcrs);
+    add_polar_motion(grid, clock.tt_days, out->itrs_gcrs);
     if (wanted & FRAMES_TEME) {
-        turn_about_pole(locators - gmst82_minus_rotation(ut1_jd), pole, out->gcrs_teme);
+        turn_about_pole(-clock.mean - xys[2], xys, out->gcrs_teme);
         mat_transpose(out->gcrs_teme, out->gcrs_teme);
     }
-    if (wanted & FRAMES_SUN) sun_at(grid, tt_jd, out);
+    if (!(wanted & FRAMES_SUN)) return;
+    if (grid->full) {
+        sun_state(ERFA_DJ00, clock.tt_days, state);
+    } else {
+        double sun_room[SUN_NODES * SUN_WIDTH];
+        const double position = clock.tt_days / SUN_STEP_DAYS, base = floor(position);
+        sun_between(table_nodes(&grid->sun, (int64_t)base, SUN_NODES, sun_room), position - base,
+                    state);
+    }
+    keep_sun(state, out);
+}
+
+/* ----------------------------------------------------------- tiles of moments */
+
+/* A tile on its way: number j of moment k at [j][k]. */
+typedef struct frame_lanes {
+    double tt_days[FRAME_LANES], rotation[FRAME_LANES], mean[FRAME_LANES];
+    double xys[CIP_WIDTH][FRAME_LANES];
+    double itrs_gcrs[9][FRAME_LANES], teme_gcrs[9][FRAME_LANES], sun[SUN_WIDTH][FRAME_LANES];
+} frame_lanes;
+
+/* node: the first of those around all moments; base: the position of the one before them. */
+CLONES FLATTEN static void itrs_lanes(const double *restrict node, double base,
+                                      frame_lanes *restrict l)
+{
+    for (int k = 0; k < FRAME_LANES; k++) {
+        double xys[CIP_WIDTH], m[9];
+        cip_between(node, l->tt_days[k] / CIP_STEP_DAYS - base, xys);
+        turn_about_pole(l->rotation[k] - xys[2], xys, m);
+        for (int j = 0; j < CIP_WIDTH; j++)
+            l->xys[j][k] = xys[j];
+        for (int j = 0; j < 9; j++)
+            l->itrs_gcrs[j][k] = m[j];
+    }
+}
+
+CLONES FLATTEN static void teme_lanes(frame_lanes *l)
+{
+    for (int k = 0; k < FRAME_LANES; k++) {
+        const double xys[CIP_WIDTH] = {l->xys[0][k], l->xys[1][k], l->xys[2][k]};
+        double m[9];
+        turn_about_pole(-l->mean[k] - xys[2], xys, m);
+        for (int j = 0; j < 9; j++)
+            l->teme_gcrs[j][k] = m[j];
+    }
+}
+
+CLONES FLATTEN static void sun_lanes(const double *restrict node, double base,
+                                     frame_lanes *restrict l)
+{
+    for (int k = 0; k < FRAME_LANES; k++) {
+        double state[SUN_WIDTH];
+        sun_between(node, l->tt_days[k] / SUN_STEP_DAYS - base, state);
+        for (int j = 0; j < SUN_WIDTH; j++)
+            l->sun[j][k] = state[j];
+    }
+}
+
+/* True, with that position, when all moments stand between the same two nodes, and the table holds
+ * all that interpolation takes: `before` nodes before them, and `n` in all. */
+static bool same_cell(const node_table *table, const frame_lanes *l, double step_days, int before,
+                      int n, double *base)
+{
+    *base = floor(l->tt_days[0] / step_days);
+    for (int k = 1; k < FRAME_LANES; k++)
+        if (floor(l->tt_days[k] / step_days) != *base) return false;
+    const int64_t first = (int64_t)*base - before;
+    return first >= table->first && first + n <= table->first + table->count;
+}
+
+static const double *node_of(const node_table *table, int64_t k)
+{
+    return table->values + (k - table->first) * table->width;
+}
+
+static void take_lane(const frame_grid *grid, const frame_lanes *l, int k, unsigned wanted,
+                      frame_set *out)
+{
+    for (int j = 0; j < 9; j++)
+        out->itrs_gcrs[j] = l->itrs_gcrs[j][k];
+    add_polar_motion(grid, l->tt_days[k], out->itrs_gcrs);
+    if (wanted & FRAMES_TEME)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                out->gcrs_teme[3 * i + j] = l->teme_gcrs[3 * j + i][k];
+    if (!(wanted & FRAMES_SUN)) return;
+    double state[SUN_WIDTH];
+    for (int j = 0; j < SUN_WIDTH; j++)
+        state[j] = l->sun[j][k];
+    keep_sun(state, out);
+}
+
+void frame_grid_fill(const frame_grid *grid, const double *t_s, int n, unsigned wanted,
+                     frame_set *out)
+{
+    frame_lanes lanes;
+    for (int k = 0; k < FRAME_LANES; k++) {
+        const clock_angles clock = read_clocks(grid, t_s[k < n ? k : n - 1], wanted);
+        lanes.tt_days[k] = clock.tt_days;
+        lanes.rotation[k] = clock.rotation;
+        lanes.mean[k] = clock.mean;
+    }
+    double cip, sun;
+    const bool together = !grid->full &&
+                          same_cell(&grid->cip, &lanes, CIP_STEP_DAYS, 1, CIP_NODES, &cip) &&
+                          same_cell(&grid->sun, &lanes, SUN_STEP_DAYS, 0, SUN_NODES, &sun);
+    if (!together) {
+        for (int k = 0; k < n; k++)
+            frame_grid_at(grid, t_s[k], wanted, &out[k]);
+        return;
+    }
+    itrs_lanes(node_of(&grid->cip, (int64_t)cip - 1), cip, &lanes);
+    if (wanted & FRAMES_TEME) teme_lanes(&lanes);
+    if (wanted & FRAMES_SUN) sun_lanes(node_of(&grid->sun, (int64_t)sun), sun, &lanes);
+    for (int k = 0; k < n; k++)
+        take_lane(grid, &lanes, k, wanted, &out[k]);
 }
 
 /* ---------------------------------------------------------------------- Sun */

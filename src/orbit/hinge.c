@@ -104,7 +104,7 @@ static double track_angle(const hinge *h, const double target_parent[3])
     double across[3];
     cross3(h->axis, h->face, across);
     const double c = dot3(target_parent, h->face), s = dot3(target_parent, across);
-    return hypot(c, s) > DIRECTION_PARALLEL ? atan2(s, c) : 0.0;
+    return c * c + s * s > DIRECTION_PARALLEL * DIRECTION_PARALLEL ? atan2(s, c) : 0.0;
 }
 
 /* Last row, but for the very last one, that is not after t_s; the first one before that. */

@@ -1,6 +1,7 @@
 #include "orbit/kepler.h"
 
 #include "base/constants.h"
+#include "base/fasttrig.h"
 
 #include <math.h>
 
@@ -30,7 +31,11 @@ static double minus_sine(double x, double sin_x)
  * Mikkola's cubic. */
 static double first_guess(double m, double e)
 {
-    if (e < 0.1) return m + e * sin(m) * (1.0 + e * cos(m));
+    if (e < 0.1) {
+        double s, c;
+        fast_sin_cos(m, &s, &c);
+        return m + e * s * (1.0 + e * c);
+    }
     const double scale = 1.0 / (4.0 * e + 0.5);
     const double alpha = (1.0 - e) * scale, beta = 0.5 * m * scale;
     const double z = cbrt(beta + sqrt(beta * beta + alpha * alpha * alpha));
@@ -39,16 +44,19 @@ static double first_guess(double m, double e)
     return m + e * (3.0 * better - 4.0 * better * better * better);
 }
 
-/* Solves E - e sin E = m for 0 <= m <= pi. The function rises from m to m + e, so the root stays in
- * a bracket; a correction that would leave it is replaced by a bisection. */
-static double solve(double m, double e)
+/* Solves E - e sin E = m for 0 <= m <= pi; leaves the sine and cosine of E, too. The function rises
+ * from m to m + e, so the root stays in a bracket; a correction that would leave it is replaced by
+ * a bisection. */
+static double solve(double m, double e, double *sine, double *cosine)
 {
     enum { MOST = 64 };        /* two are usual; bisection alone would end within this */
     const double close = 1e-4; /* relative; a step of fourth order then leaves rounding only */
     double low = m, high = fmin(m + e, PI);
     double x = fmin(fmax(first_guess(m, e), low), high);
     for (int k = 0; k < MOST; k++) {
-        const double s = sin(x), c = cos(x), e_s = e * s, e_c = e * c;
+        double s, c;
+        fast_sin_cos(x, &s, &c);
+        const double e_s = e * s, e_c = e * c;
         /* x - e sin x - m and its slope 1 - e cos x, without cancellation for e near 1 */
         const double minus_cosine = c > 0.0 ? s * s / (1.0 + c) : 1.0 - c;
         const double f = (1.0 - e) * x + e * minus_sine(x, s) - m;
@@ -62,17 +70,35 @@ static double solve(double m, double e)
         const double d3 = -f / (f1 + 0.5 * d2 * e_s + d2 * d2 * e_c / 6.0);
         double next = x + d3;
         if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-        const double step = fabs(next - x);
+        const double step = next - x;
         x = next;
-        if (!(step > close * x)) break;
+        if (fabs(step) > close * x) continue;
+        turn_sin_cos(step, &s, &c);
+        *sine = s;
+        *cosine = c;
+        return x;
     }
+    fast_sin_cos(x, sine, cosine);
     return x;
+}
+
+/* The eccentric anomaly with its sine and cosine. */
+static double eccentric_anomaly(double mean_anomaly, double e, double *sine, double *cosine)
+{
+    const double m = reduce_angle(mean_anomaly);
+    if (e == 0.0) { /* a circle */
+        fast_sin_cos(m, sine, cosine);
+        return m;
+    }
+    const double x = solve(fmin(fabs(m), PI), e, sine, cosine);
+    *sine = copysign(*sine, m);
+    return copysign(x, m);
 }
 
 double kepler_eccentric_anomaly(double mean_anomaly, double eccentricity)
 {
-    const double m = reduce_angle(mean_anomaly);
-    return copysign(solve(fmin(fabs(m), PI), eccentricity), m);
+    double sine, cosine;
+    return eccentric_anomaly(mean_anomaly, eccentricity, &sine, &cosine);
 }
 
 static glint_status check(const kepler_elements *k, glint_error *error)
@@ -101,14 +127,14 @@ glint_status kepler_start(const kepler_elements *elements, double mu_m3_s2, doub
     const double n = sqrt(mu_m3_s2 / a) / a, c = cos(elements->inclination);
     const double radius_over_p = radius_m / (a * axes * axes);
     const double k = 0.75 * n * j2 * radius_over_p * radius_over_p;
+    const double mean_motion = n + k * axes * (3.0 * c * c - 1.0);
     *out = (kepler_orbit){
         .at_epoch = *elements,
-        .mu_m3_s2 = mu_m3_s2,
-        .mean_motion = n + k * axes * (3.0 * c * c - 1.0),
+        .mean_motion = mean_motion,
+        .speed_m_s = mean_motion * a,
         .raan_rate = -2.0 * k * c,
         .argument_rate = k * (5.0 * c * c - 1.0),
         .semi_minor_axis_m = a * axes,
-        .speed_radius_m2_s = sqrt(mu_m3_s2 * a),
         .sin_inclination = sin(elements->inclination),
         .cos_inclination = c,
     };
@@ -119,16 +145,18 @@ void kepler_state(const kepler_orbit *orbit, double dt_s, double r_m[3], double 
 {
     const kepler_elements *k = &orbit->at_epoch;
     const double a = k->semi_major_axis_m, b = orbit->semi_minor_axis_m, e = k->eccentricity;
-    const double anomaly = kepler_eccentric_anomaly(k->mean_anomaly + orbit->mean_motion * dt_s, e);
-    const double sin_e = sin(anomaly), cos_e = cos(anomaly);
-    const double rate = orbit->speed_radius_m2_s / (a * (1.0 - e * cos_e)); /* a dE/dt, m/s */
+    double sin_e, cos_e;
+    eccentric_anomaly(k->mean_anomaly + orbit->mean_motion * dt_s, e, &sin_e, &cos_e);
+    const double rate = orbit->speed_m_s / (1.0 - e * cos_e); /* a dE/dt, m/s */
     const double x = a * (cos_e - e), y = b * sin_e;
     const double vx = -rate * sin_e, vy = rate * (b / a) * cos_e;
 
     /* p points to the perigee, q a quarter turn on along the motion. */
     const double node = k->raan + orbit->raan_rate * dt_s;
     const double argument = k->argument_of_perigee + orbit->argument_rate * dt_s;
-    const double sin_n = sin(node), cos_n = cos(node), sin_w = sin(argument), cos_w = cos(argument);
+    double sin_n, cos_n, sin_w, cos_w;
+    fast_sin_cos(node, &sin_n, &cos_n);
+    fast_sin_cos(argument, &sin_w, &cos_w);
     const double sin_i = orbit->sin_inclination, cos_i = orbit->cos_inclination;
     const double p[3] = {cos_n * cos_w - sin_n * sin_w * cos_i,
                          sin_n * cos_w + cos_n * sin_w * cos_i, sin_w * sin_i};
@@ -138,4 +166,10 @@ void kepler_state(const kepler_orbit *orbit, double dt_s, double r_m[3], double 
         r_m[i] = x * p[i] + y * q[i];
         v_m_s[i] = vx * p[i] + vy * q[i];
     }
+    /* The ellipse itself turns: in its plane about the normal p x q, and about z with its node. */
+    const double turn = orbit->argument_rate, drift = orbit->raan_rate;
+    for (int i = 0; i < 3; i++)
+        v_m_s[i] += turn * (x * q[i] - y * p[i]);
+    v_m_s[0] -= drift * r_m[1];
+    v_m_s[1] += drift * r_m[0];
 }

@@ -13,11 +13,10 @@ typedef struct kepler_elements {
 /* An orbit prepared for many moments; immutable. */
 typedef struct kepler_orbit {
     kepler_elements at_epoch;
-    double mu_m3_s2;
     double mean_motion;              /* rad/s, with the J2 term */
     double raan_rate, argument_rate; /* rad/s */
     double semi_minor_axis_m;
-    double speed_radius_m2_s; /* sqrt(mu a): r v of the perifocal velocity components */
+    double speed_m_s; /* mean motion times semi-major axis */
     double sin_inclination, cos_inclination;
 } kepler_orbit;
 
@@ -27,8 +26,8 @@ typedef struct kepler_orbit {
  * eccentricity not in [0,1), semi-major axis not positive and finite, an angle not finite. */
 glint_status kepler_start(const kepler_elements *elements, double mu_m3_s2, double j2,
                           double radius_m, kepler_orbit *out, glint_error *error);
-/* Position (m) and velocity (m/s; of the osculating ellipse, without the precession's own part)
- * `dt_s` after the epoch, of any sign. */
+/* Position (m) and its rate of change (m/s; the drift of the ellipse included) `dt_s` after the
+ * epoch, of any sign. */
 void kepler_state(const kepler_orbit *orbit, double dt_s, double r_m[3], double v_m_s[3]);
 /* Eccentric anomaly, -pi to pi, of a mean anomaly of any size (rad), for 0 <= eccentricity < 1:
  * converges for every input. Start: Mikkola 1987, Celest. Mech. 40, 329; corrections of fourth

@@ -1,5 +1,6 @@
 #include "orbit/sgp4.h"
 
+#include "base/fasttrig.h"
 #include "orbit/sgp4_parts.h"
 
 #include <stdio.h>
@@ -369,7 +370,8 @@ static void solve_kepler(double u, double ax, double ay, double *sin_e, double *
     const double reach = 1.1 * (fabs(ax) + fabs(ay)); /* above |E' - u| */
     double at = u, low = u - reach, high = u + reach;
     for (int k = 0; k < 60; k++) {
-        const double s = sin(at), c = cos(at);
+        double s, c;
+        fast_sin_cos(at, &s, &c);
         const double miss = u - ay * c + ax * s - at, slope = 1.0 - c * ax - s * ay;
         double step = miss / slope;
         if (fabs(step) < 1e-7) { /* rad; after this step the error is of order 1e-14 */
@@ -384,8 +386,7 @@ static void solve_kepler(double u, double ax, double ay, double *sin_e, double *
         at += step;
         if (!(at > low && at < high)) at = 0.5 * (low + high);
     }
-    *sin_e = sin(at);
-    *cos_e = cos(at);
+    fast_sin_cos(at, sin_e, cos_e);
 }
 
 /* Position and velocity from where the satellite is in its orbit: unit vectors along the radius and
@@ -395,8 +396,9 @@ static void to_vectors(const double sin_u, const double cos_u, double node, doub
                        double radius, double radial_rate, double along_rate, double ke,
                        double r_teme_m[3], double v_teme_m_s[3])
 {
-    const double sin_n = sin(node), cos_n = cos(node);
-    const double sin_i = sin(inclination), cos_i = cos(inclination);
+    double sin_n, cos_n, sin_i, cos_i;
+    fast_sin_cos(node, &sin_n, &cos_n);
+    fast_sin_cos(inclination, &sin_i, &cos_i);
     const double mx = -sin_n * cos_i, my = cos_n * cos_i;
     const double up[3] = {mx * sin_u + cos_n * cos_u, my * sin_u + sin_n * cos_u, sin_i * sin_u};
     const double on[3] = {mx * cos_u - cos_n * sin_u, my * cos_u - sin_n * sin_u, sin_i * cos_u};
@@ -413,8 +415,10 @@ static glint_status osculate(const sgp4 *s, double t, const mean_elements *m, do
                              glint_error *error)
 {
     const double inverse_p = 1.0 / (a * (1.0 - m->eccentricity * m->eccentricity));
-    const double ax = m->eccentricity * cos(m->argument_of_perigee);
-    const double ay = m->eccentricity * sin(m->argument_of_perigee) + inverse_p * i->long_y;
+    double sin_w, cos_w;
+    fast_sin_cos(m->argument_of_perigee, &sin_w, &cos_w);
+    const double ax = m->eccentricity * cos_w;
+    const double ay = m->eccentricity * sin_w + inverse_p * i->long_y;
     const double e2 = ax * ax + ay * ay, p = a * (1.0 - e2);
     if (!(p >= 0.0)) return fail(s, t, 4, "the semi-latus rectum", p, "at least 0", error);
 
@@ -433,7 +437,8 @@ static glint_status osculate(const sgp4 *s, double t, const mean_elements *m, do
         return fail(s, t, 6, "the distance from the Earth's centre (in its radii)", radius,
                     "at least 1", error);
     const double turn = -0.25 * k2 * i->c7 * sin_2u; /* of the argument of latitude */
-    const double sin_t = sin(turn), cos_t = cos(turn);
+    double sin_t, cos_t;
+    fast_sin_cos(turn, &sin_t, &cos_t);
     to_vectors(sin_u * cos_t + cos_u * sin_t, cos_u * cos_t - sin_u * sin_t,
                m->raan + 1.5 * k2 * i->cos_i * sin_2u,
                m->inclination + 1.5 * k2 * i->cos_i * i->sin_i * cos_2u, radius,

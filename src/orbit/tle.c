@@ -2,6 +2,7 @@
 
 #include "base/constants.h"
 #include "base/text.h"
+#include "orbit/clock.h"
 
 #include <erfa.h>
 
@@ -320,6 +321,8 @@ static glint_status read_epoch(const tle_line *l, double epoch_jd[2])
     double zero, january_1_mjd;
     eraCal2jd((int)year + (year < 57.0 ? 2000 : 1900), 1, 1, &zero, &january_1_mjd);
     epoch_jd[0] = zero + january_1_mjd + (whole - 1.0);
+    /* Element sets count fractions of 86 400 s on every day, quasi-JDs fractions of the day. */
+    epoch_jd[1] *= DAY_S / utc_day_length_s(epoch_jd[0]);
     return GLINT_OK;
 }
 

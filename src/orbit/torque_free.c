@@ -160,3 +160,11 @@ void torque_free_at(const torque_free *b, double t_s, double body_inertial[9], d
     mat_transpose(triad, body_momentum);
     mat_mul(body_momentum, momentum_inertial, body_inertial);
 }
+
+/* The squares of sn and cn add to 1, and dn is 1 at most. */
+double torque_free_fastest(const torque_free *b)
+{
+    if (b->is_steady) return fabs(b->steady_rate);
+    const double *a = b->amplitude;
+    return sqrt(fmax(a[0] * a[0], a[1] * a[1]) + a[2] * a[2]);
+}

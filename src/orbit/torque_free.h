@@ -30,6 +30,8 @@ typedef struct torque_free {
  * Analytical Dynamics, section 69. */
 void torque_free_start(const double inertia[3], const double rates[3],
                        const double body_inertial[9], torque_free *out);
+/* The body never turns faster, rad/s. */
+double torque_free_fastest(const torque_free *b);
 /* Attitude and body rates (rad/s; NULL allowed) t_s after (before, if negative) the start. */
 void torque_free_at(const torque_free *b, double t_s, double body_inertial[9], double rates[3]);
 

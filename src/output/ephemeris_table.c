@@ -37,11 +37,14 @@ static void csv_row(const glint_ephemeris *e, const glint_ephemeris_row *row, te
 {
     size_t n;
     double value;
-    glint_ephemeris_columns(e, &n);
+    const glint_column *columns = glint_ephemeris_columns(e, &n);
     add_utc(t, &row->utc);
     for (size_t k = 1; k < n; k++) {
         text_char(t, ',');
-        if (glint_ephemeris_value(e, row, k, &value)) text_double(t, value);
+        if (columns[k].is_text)
+            ecsv_cell(t, row->observer_name);
+        else if (glint_ephemeris_value(e, row, k, &value))
+            text_double(t, value);
     }
     text_char(t, '\n');
 }
@@ -70,11 +73,21 @@ static const struct {
 
 enum { N_SHOWN = sizeof SHOWN / sizeof *SHOWN };
 
-static void people_header(text *t)
+static bool has_column(const glint_column *columns, size_t n, const char *name)
 {
+    for (size_t i = 0; i < n; i++)
+        if (string_equal(columns[i].name, name)) return true;
+    return false;
+}
+
+static void people_header(const glint_ephemeris *e, text *t)
+{
+    size_t n;
+    const glint_column *columns = glint_ephemeris_columns(e, &n);
     text_printf(t, "%-24s", "UTC");
     for (size_t k = 0; k < N_SHOWN; k++)
         text_printf(t, " %*s", SHOWN[k].width, SHOWN[k].head);
+    if (has_column(columns, n, "observer")) text_add(t, "  observer");
     text_char(t, '\n');
 }
 
@@ -86,11 +99,17 @@ static void people_row(const glint_ephemeris *e, const glint_ephemeris_row *row,
     const glint_utc *u = &row->utc;
     text_printf(t, "%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", u->year, u->month, u->day, u->hour,
                 u->minute, u->second, u->microsecond / 1000);
-    for (size_t k = 0; k < N_SHOWN; k++)
-        for (size_t i = 1; i < n; i++)
-            if (string_equal(columns[i].name, SHOWN[k].name) &&
-                glint_ephemeris_value(e, row, i, &value))
-                text_printf(t, " %*.*f", SHOWN[k].width, SHOWN[k].decimals, value);
+    for (size_t k = 0; k < N_SHOWN; k++) {
+        bool filled = false;
+        for (size_t i = 1; i < n && !filled; i++)
+            filled = string_equal(columns[i].name, SHOWN[k].name) &&
+                     glint_ephemeris_value(e, row, i, &value);
+        if (filled)
+            text_printf(t, " %*.*f", SHOWN[k].width, SHOWN[k].decimals, value);
+        else
+            text_printf(t, " %*s", SHOWN[k].width, "-");
+    }
+    if (has_column(columns, n, "observer")) text_printf(t, "  %s", row->observer_name);
     text_char(t, '\n');
 }
 
@@ -110,7 +129,10 @@ static void json_row(const glint_ephemeris *e, const glint_ephemeris_row *row, j
         json_string(j, columns[0].name, utc.data);
     text_free(&utc);
     for (size_t k = 1; k < n; k++)
-        if (glint_ephemeris_value(e, row, k, &value)) json_number(j, columns[k].name, value);
+        if (columns[k].is_text)
+            json_string(j, columns[k].name, row->observer_name);
+        else if (glint_ephemeris_value(e, row, k, &value))
+            json_number(j, columns[k].name, value);
     json_end(j, '}');
 }
 
@@ -159,7 +181,7 @@ static void write_header(const glint_ephemeris *e, glint_format format, json *j)
     else if (format == GLINT_FORMAT_JSON)
         json_header(e, j);
     else
-        people_header(j->out);
+        people_header(e, j->out);
 }
 
 /* The header waits for the first block, so that a run that fails at its start writes nothing. */

@@ -103,7 +103,7 @@ static void add_line(text *t, const listed_pass *l)
     }
     text_printf(t, "  %7.0f  %7.0f  %6.1f  %s%s%s\n", p->sunlit_s, p->dark_site_s,
                 top->sun_elevation_rad * DEGREES, glint_passes_satellite(l->of),
-                glint_passes_site(l->of)[0] ? ", " : "", glint_passes_site(l->of));
+                p->site[0] ? ", " : "", p->site);
 }
 
 /* What happens besides: the Earth's shadow, darkness, flashes. */
@@ -117,6 +117,7 @@ static void add_note(text *t, const glint_passes *of, const glint_pass_event *e)
         [GLINT_DARKNESS_BEGIN] = "the site is dark",
         [GLINT_DARKNESS_END] = "the site is light",
         [GLINT_FLASH] = "flash",
+        [GLINT_MORE_FLASHES] = "from here on flashes are left out: too many, or too long a search",
     };
     if ((size_t)e->kind >= sizeof WORDS / sizeof *WORDS || !WORDS[e->kind]) return;
     text_printf(t, "%12s", "");
@@ -151,7 +152,6 @@ static void write_people(const listed_pass *list, size_t n, text *t)
         add_line(t, &list[k]);
         for (size_t i = 0; i < p->n_events; i++)
             add_note(t, list[k].of, &p->events[i]);
-        if (p->more_flashes) text_printf(t, "%12smore flashes are left out\n", "");
     }
 }
 
@@ -165,7 +165,7 @@ static const glint_column COLUMNS[] = {
     {"utc", "", "UTC of reception at the observer", true},
     {"azimuth_deg", "deg", "from north through east", false},
     {"azimuth_name", "", "point of the compass", true},
-    {"elevation_deg", "deg", "geometric", false},
+    {"elevation_deg", "deg", "geometric, or apparent where the site has refraction", false},
     {"range_km", "km", "observer to satellite", false},
     {"sun_elevation_deg", "deg", "of the Sun at the site, geometric", false},
     {"phase_angle_deg", "deg", "at the satellite, between Sun and observer; 0 is full", false},
@@ -189,11 +189,12 @@ static void add_cell(text *t, double value)
     text_double(t, value);
 }
 
-static void add_event_row(text *t, const glint_passes *of, size_t number, const glint_pass_event *e)
+static void add_event_row(text *t, const glint_passes *of, const glint_pass *pass, size_t number,
+                          const glint_pass_event *e)
 {
     ecsv_cell(t, glint_passes_satellite(of));
     text_char(t, ',');
-    ecsv_cell(t, glint_passes_site(of));
+    ecsv_cell(t, pass->site);
     text_printf(t, ",%zu,%s,", number, glint_event_name(e->kind));
     add_utc(t, &e->utc);
     add_cell(t, e->azimuth_rad * DEGREES);
@@ -228,7 +229,7 @@ static void write_csv(const listed_pass *list, size_t n, text *t)
     ecsv_end(t, COLUMNS, N_COLUMNS);
     for (size_t k = 0; k < n; k++)
         for (size_t i = 0; i < list[k].pass->n_events; i++)
-            add_event_row(t, list[k].of, k + 1, &list[k].pass->events[i]);
+            add_event_row(t, list[k].of, list[k].pass, k + 1, &list[k].pass->events[i]);
 }
 
 /* --------------------------------------------------------------------- JSON */
@@ -283,7 +284,7 @@ static void write_json(const listed_pass *list, size_t n, text *t)
         const glint_pass *p = list[k].pass;
         json_object(&j, NULL);
         json_string(&j, "satellite", glint_passes_satellite(list[k].of));
-        json_string(&j, "site", glint_passes_site(list[k].of));
+        json_string(&j, "site", p->site);
         json_bool(&j, "up_at_start", p->up_at_start);
         json_bool(&j, "up_at_end", p->up_at_end);
         json_number(&j, "sunlit_s", p->sunlit_s);

@@ -10,16 +10,18 @@ enum { BINS = 150000 };
 
 struct summary_maker {
     glint_summary so_far;
-    double step_s;
-    int64_t brighter_6, brighter_7, sunlit, visible;
+    double step_s, last_s;
+    int64_t brighter_6, brighter_7;
+    int64_t sunlit_halves, visible_halves; /* of steps */
     int64_t bins[BINS];
 };
 
-summary_maker *summary_start(double step_s, bool has_utc)
+summary_maker *summary_start(double step_s, double last_s, bool has_utc)
 {
     summary_maker *maker = calloc(1, sizeof *maker);
     if (!maker) return NULL;
     maker->step_s = step_s;
+    maker->last_s = last_s;
     maker->so_far.has_utc = has_utc;
     return maker;
 }
@@ -31,6 +33,7 @@ static void add_magnitude(summary_maker *m, const glint_row *row)
     if (s->bright_rows == 0 || mag < s->magnitude_min) {
         s->magnitude_min = mag;
         s->brightest_t_s = row->t_s;
+        s->brightest_observer = row->observer;
         s->brightest_utc = row->utc;
     }
     if (s->bright_rows == 0 || mag > s->magnitude_max) s->magnitude_max = mag;
@@ -41,13 +44,21 @@ static void add_magnitude(summary_maker *m, const glint_row *row)
     m->bins[bin < 0 ? 0 : bin >= BINS ? BINS - 1 : (int)bin]++;
 }
 
+/* Half steps that a row stands for: one before it and one after it, within the run (trapezoidal
+ * rule). */
+static int halves_of(const summary_maker *m, double t_s)
+{
+    return (t_s > 0) + (t_s < m->last_s - 0.5 * m->step_s);
+}
+
 void summary_add(summary_maker *m, const glint_row *rows, size_t n)
 {
     m->so_far.rows += (int64_t)n;
     for (size_t k = 0; k < n; k++) {
         const bool sunlit = rows[k].sunlit_fraction > 0;
-        m->sunlit += sunlit;
-        m->visible += sunlit && !(rows[k].flags & GLINT_BELOW_HORIZON);
+        const int halves = sunlit ? halves_of(m, rows[k].t_s) : 0;
+        m->sunlit_halves += halves;
+        m->visible_halves += rows[k].flags & (GLINT_BELOW_HORIZON | GLINT_BLOCKED) ? 0 : halves;
         if (rows[k].flux_ratio[0] > 0) add_magnitude(m, &rows[k]);
     }
 }
@@ -78,8 +89,8 @@ void summary_finish(const summary_maker *m, glint_summary *out)
         out->percent_brighter_6 = 100.0 * (double)m->brighter_6 / (double)out->bright_rows;
         out->percent_brighter_7 = 100.0 * (double)m->brighter_7 / (double)out->bright_rows;
     }
-    out->sunlit_s = (double)m->sunlit * m->step_s;
-    out->visible_s = (double)m->visible * m->step_s;
+    out->sunlit_s = 0.5 * (double)m->sunlit_halves * m->step_s;
+    out->visible_s = 0.5 * (double)m->visible_halves * m->step_s;
 }
 
 void summary_free(summary_maker *m)

@@ -132,8 +132,15 @@ static glint_status sinks_open(const glint_curve *curve, const char *path, const
     if (path && glint_curve_reads(curve, path))
         return error_set(error, GLINT_OUTPUT, (place){path, 0, 0},
                          "the scenario is read from this file; expected another one to write to");
-    out->summary =
-        summary_start(glint_curve_step_s(curve), n > 0 && string_equal(columns[0].name, "utc"));
+    if (picture && glint_curve_observers(curve) > 1)
+        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                         "a picture shows the curve of one observer, and there are %zu; expected a "
+                         "scenario of one, or no picture",
+                         glint_curve_observers(curve));
+    const double step_s = glint_curve_step_s(curve);
+    const int64_t n_steps = glint_curve_length(curve) / (int64_t)glint_curve_observers(curve);
+    out->summary = summary_start(step_s, step_s * (double)(n_steps - 1),
+                                 n > 0 && string_equal(columns[0].name, "utc"));
     if (!out->summary) return error_no_memory(error);
     if (picture) {
         const glint_status status = plot_open(picture, &out->plot, error);
@@ -217,6 +224,7 @@ glint_status glint_table_write(glint_curve *curve, const char *path, const char 
     if (!status && summary) {
         summary_finish(to.summary, summary);
         summary->band = glint_curve_band(curve);
+        summary->n_observers = glint_curve_observers(curve);
     }
     sinks_close(&to);
     return status;

@@ -256,11 +256,27 @@ static void read_leg(reading *rd, const toml_node *table, int k)
 
 /* The observer's direction when a slew begins, light time left aside (3e-5 rad): it only decides
  * the side and the length of the slew. */
-static void observer_of_slew(const glint_scenario *s, moment *m)
+static glint_status observer_of_slew(const glint_scenario *s, const frame_set *frames, moment *m,
+                                     glint_error *error)
 {
-    mat_tvec(m->itrs_gcrs, s->site.r_itrs_m, m->observer);
-    sub3(m->observer, m->r_m, m->observer);
+    const scenario_observer *o = s->observers; /* of several the first: the turn is one for all */
+    double place_m[3], v_m_s[3];
+    if (s->n_observers == 0) return GLINT_OK; /* it was wrong, and that has been said */
+    if (o->kind == OBSERVER_DIRECTION) {
+        copy3(o->direction, m->observer);
+        return GLINT_OK;
+    }
+    if (o->kind == OBSERVER_SATELLITE) {
+        if (!o->orbit.propagator) return GLINT_OK;
+        const glint_status status =
+            orbit_state(o->orbit.propagator, m->t_s, frames, NULL, place_m, v_m_s, error);
+        if (status) return status;
+    } else {
+        mat_tvec(m->itrs_gcrs, o->site.r_itrs_m, place_m);
+    }
+    sub3(place_m, m->r_m, m->observer);
     unit3(m->observer, m->observer);
+    return GLINT_OK;
 }
 
 /* What the laws of a slew look at when it begins. */
@@ -275,18 +291,17 @@ static glint_status moment_of_slew(const glint_scenario *s, double t_s, moment *
     glint_status status =
         frame_grid_prepare(&s->clock, &still, t_s, t_s, GRID_STEP_S, &grid, error);
     if (status) return status;
-    frame_grid_at(grid, t_s, orbit_wanted_frames(s->orbit.propagator) | FRAMES_SUN, &frames);
+    frame_grid_at(grid, t_s, FRAMES_TEME | FRAMES_SUN, &frames);
     frame_grid_free(grid);
     *m = (moment){.t_s = t_s};
     status = orbit_state(s->orbit.propagator, t_s, &frames, NULL, m->r_m, m->v_m_s, error);
     if (status) return status;
     memcpy(m->itrs_gcrs, frames.itrs_gcrs, sizeof m->itrs_gcrs);
     sun_from_point(&frames, m->r_m, s->aberration, m->sun, &distance_m);
-    observer_of_slew(s, m);
-    moon_position(&s->clock, t_s, m->moon);
+    moon_position(&s->clock, t_s, NULL, m->moon);
     sub3(m->moon, m->r_m, m->moon);
     unit3(m->moon, m->moon);
-    return GLINT_OK;
+    return observer_of_slew(s, &frames, m, error);
 }
 
 /* Begins the slew of leg k, and sees that it ends before the next one. */

@@ -11,17 +11,35 @@
 static const param_info TOLERANCE = {"tolerance", "the column's unit", "", 0, INFINITY, 0, 0};
 static const param_info RELATIVE = {"relative", "", "", 0, 1, 0, 0};
 
+/* The observer of an expectation must be one of the scenario's, and there be a time to go with. */
+static void check_observer(reading *rd, reader *r, const expectation *e)
+{
+    const glint_scenario *s = rd->s;
+    bool known = s->n_observers == 0 && !s->has_geometry; /* they could not be read */
+    for (int i = 0; i < s->n_observers; i++)
+        known = known || string_equal(s->observers[i].name, e->observer);
+    if (!known)
+        reader_fail(r, reader_place(r, "observer"), "no observer is named '%.60s'", e->observer);
+    if (e->by_row)
+        reader_fail(r, reader_place(r, "observer"),
+                    "'observer' stands beside 'row', which counts the rows of all; expected 't_s'");
+}
+
 static void read_expectation(reading *rd, const toml_node *table, expectation *out)
 {
     static const param_info TIME = {"t_s", "s", "", -INFINITY, INFINITY, 0, 0};
     static const param_info VALUE = {"value", "", "", -INFINITY, INFINITY, PARAM_REQUIRED, 0};
     reader r = reader_start(table, "[[expect]]", rd->errors);
-    *out = (expectation){.where = table->where, .column = "", .source = ""};
+    *out = (expectation){.where = table->where,
+                         .observer = rd->s->n_observers > 0 ? rd->s->observers[0].name : "",
+                         .column = "",
+                         .source = ""};
     const bool has_time = reader_param(&r, &TIME, &out->t_s);
     out->by_row = reader_integer(&r, "row", false, 0, INT64_MAX, 0, &out->row);
     if (reader_has(&r, "t_s") == reader_has(&r, "row"))
         reader_fail(&r, table->where, "[[expect]] has %s; expected one of t_s and row",
                     has_time ? "both t_s and row" : "neither t_s nor row");
+    if (reader_string(&r, "observer", false, &out->observer)) check_observer(rd, &r, out);
     reader_string(&r, "column", true, &out->column);
     reader_param(&r, &VALUE, &out->value);
     const bool absolute = reader_param(&r, &TOLERANCE, &out->absolute);

@@ -5,6 +5,7 @@
 #include "scenario/reading.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -100,6 +101,35 @@ static void check_last_year(reader *r, const run_clock *clock, double span_s)
                     end.year, LAST_YEAR);
 }
 
+/* Date of a modified Julian day. */
+static void write_date(int mjd, char out[16])
+{
+    glint_utc date;
+    utc_from_mjd(mjd, &date);
+    snprintf(out, 16, "%04d-%02d-%02d", date.year % 10000, date.month % 100, date.day % 100);
+}
+
+/* Lets the clock take UT1 from the file, which must cover the run. */
+static void use_eop(reading *rd, reader *r, double span_s)
+{
+    glint_scenario *s = rd->s;
+    double end_jd[2];
+    run_clock_tt(&s->clock, span_s, end_jd);
+    if (eop_covers(s->eop, s->clock.tt_jd) && eop_covers(s->eop, end_jd)) {
+        run_clock_orient(&s->clock, s->eop);
+        return;
+    }
+    int first, last, predicted;
+    char from[16], to[16];
+    eop_span(s->eop, &first, &last, &predicted);
+    write_date(first, from);
+    write_date(last, to);
+    reader_fail(r, s->eop_where,
+                "the file has Earth orientation from %s to %s, 0h UTC, which is not all of the "
+                "run; expected a file that covers it, or dut1_s instead",
+                from, to);
+}
+
 static void read_time(reading *rd, reader *root)
 {
     static const param_info STEP = {"step_s",       "s",           "time between rows", 0, 1e9,
@@ -138,6 +168,7 @@ static void read_time(reading *rd, reader *root)
         run_clock_start(&start, span_s, s->dut1_s, &s->clock);
         count_steps(rd, &r, span_s);
         check_last_year(&r, &s->clock, span_s);
+        if (s->eop) use_eop(rd, &r, span_s);
         if (s->clock.dubious)
             errors_warn(rd->errors, table->where,
                         "leap seconds are not known for these years; UTC may be off by a second "
@@ -146,66 +177,49 @@ static void read_time(reading *rd, reader *root)
     reading_done(rd, &r);
 }
 
-/* ------------------------------------------------------------ [observer] */
-
-static void read_observer(reading *rd, reader *root)
-{
-    static const param_info LATITUDE = {"latitude_deg", "deg", "geodetic, north positive", -90, 90,
-                                        PARAM_REQUIRED, 0};
-    static const param_info LONGITUDE = {"longitude_deg", "deg", "east positive", -360, 360,
-                                         PARAM_REQUIRED,  0};
-    static const param_info HEIGHT = {"height_m", "m", "above the WGS84 ellipsoid", -10000, 100000,
-                                      0,          0};
-    static const param_info ELEVATION = {
-        "min_elevation_deg", "deg", "lower is below the horizon", -90, 90, 0, 0};
-    const toml_node *table = reader_table(root, "observer", true);
-    if (!table) return;
-    glint_scenario *s = rd->s;
-    reader r = reader_start(table, "[observer]", rd->errors);
-    double latitude, longitude, height_m, elevation_deg;
-    s->site_name = "";
-    reader_string(&r, "name", false, &s->site_name);
-    reader_refuse(&r, "satellite", "this version observes from ground sites only");
-    reader_refuse(&r, "direction",
-                  "this version observes from ground sites only; known directions "
-                  "are given by [geometry]");
-    if (reader_has(&r, "satellite") ||
-        reader_has(&r, "direction")) { /* the keys of a site are known */
-        reader_has(&r, LATITUDE.name), reader_has(&r, LONGITUDE.name);
-        reader_has(&r, HEIGHT.name), reader_has(&r, ELEVATION.name);
-    } else {
-        reader_param(&r, &LATITUDE, &latitude);
-        reader_param(&r, &LONGITUDE, &longitude);
-        reader_param(&r, &HEIGHT, &height_m);
-        reader_param(&r, &ELEVATION, &elevation_deg);
-        s->min_elevation = elevation_deg * DEG;
-        glint_error error;
-        if (r.status == GLINT_OK &&
-            earth_site_at(latitude * DEG, longitude * DEG, height_m, &s->site, &error))
-            r.status = errors_take(rd->errors, &error, table->where);
-    }
-    reading_done(rd, &r);
-}
-
 /* ---------------------------------------------------------- [satellite] */
+
+/* How shadows between parts are found; the keys that go with one way are refused with another. */
+static void read_shadows(glint_scenario *s, reader *r)
+{
+    static const char *const SHADOWS[] = {"exact", "none", "interpolated", "rays"};
+    static const param_info STEP = {
+        "shadow_step_deg", "deg", "motion between exact shadows", 0.001, 10, 1, 0};
+    int shadows;
+    int64_t rays;
+    double step_deg;
+    reader_choice(r, "self_shadows", SHADOWS, 4, SHADOWS_EXACT, &shadows);
+    const bool has_step = reader_param(r, &STEP, &step_deg);
+    const bool has_rays = reader_integer(r, "rays_per_facet", false, 1, VISIBILITY_MOST_RAYS,
+                                         DEFAULT_RAYS_PER_FACET, &rays);
+    s->self_shadows = (self_shadows)shadows;
+    s->shadow_step = step_deg * DEG;
+    s->rays_per_facet = (int)rays;
+    if (has_step && shadows != SHADOWS_INTERPOLATED)
+        reader_fail(r, reader_place(r, STEP.name),
+                    "shadow_step_deg goes with self_shadows = \"interpolated\" only; expected "
+                    "that, or no shadow_step_deg");
+    if (has_rays && shadows != SHADOWS_RAYS)
+        reader_fail(r, reader_place(r, "rays_per_facet"),
+                    "rays_per_facet goes with self_shadows = \"rays\" only; expected that, or no "
+                    "rays_per_facet");
+    if (shadows == SHADOWS_RAYS && !visibility_has_rays())
+        reader_fail(r, reader_place(r, "self_shadows"),
+                    "self_shadows = \"rays\" takes Embree 3, without which this glint was built; "
+                    "expected \"exact\", \"interpolated\" or \"none\", or a glint built with "
+                    "libembree-dev");
+}
 
 static void read_satellite(reading *rd, reader *root)
 {
-    static const char *const SHADOWS[] = {"exact", "none", "interpolated", "rays"};
     const toml_node *table = reader_table(root, "satellite", false);
     const bool tables_here = reader_has(root, "component") || reader_has(root, "materials") ||
                              reader_has(root, "materials_from");
     const toml_node *named = NULL;
     if (table) {
         reader r = reader_start(table, "[satellite]", rd->errors);
-        int shadows;
         named = reader_get(&r, "model", TOML_STRING, false, "the path of a model file");
-        reader_choice(&r, "self_shadows", SHADOWS, 4, 0, &shadows);
-        if (shadows > SHADOWS_NONE)
-            reader_fail(&r, reader_place(&r, "self_shadows"),
-                        "self_shadows = \"%s\" is not built yet; expected \"exact\" or \"none\"",
-                        SHADOWS[shadows]);
-        rd->s->self_shadows = shadows == SHADOWS_NONE ? SHADOWS_NONE : SHADOWS_EXACT;
+        read_shadows(rd->s, &r);
         if (named && tables_here)
             reader_fail(&r, named->where,
                         "both a model file and a model's tables in this file are given; expected "
@@ -359,6 +373,23 @@ static void read_photometry(reading *rd, reader *root)
 
 /* ------------------------------------------------- [corrections], [output] */
 
+/* A file of measured Earth orientation; whether it covers the run is known after [time]. */
+static void read_eop(reading *rd, reader *r)
+{
+    glint_scenario *s = rd->s;
+    const toml_node *file =
+        reader_get(r, "eop", TOML_STRING, true, "the path of a file finals2000A or C04");
+    if (reader_has(r, "dut1_s"))
+        reader_fail(r, reader_place(r, "dut1_s"),
+                    "both 'dut1_s' and 'eop', which holds it, are given; expected one of them");
+    char *path = file ? reading_path(rd, file) : NULL;
+    if (!path) return;
+    s->eop_name = file->string;
+    s->eop_where = file->where;
+    reading_note(rd, eop_read(path, file->where, &s->eop, rd->errors));
+    free(path);
+}
+
 static void read_corrections(reading *rd, reader *root)
 {
     static const param_info DUT1 = {"dut1_s", "s", "UT1-UTC", -0.9, 0.9, 0, 0};
@@ -370,7 +401,16 @@ static void read_corrections(reading *rd, reader *root)
     reader_boolean(&r, "light_time", true, &s->light_time);
     reader_boolean(&r, "aberration", true, &s->aberration);
     reader_param(&r, &DUT1, &s->dut1_s);
+    if (reader_has(&r, "eop")) read_eop(rd, &r);
     reading_done(rd, &r);
+}
+
+/* True also where the observers could not be read. */
+static bool any_site(const glint_scenario *s)
+{
+    for (int i = 0; i < s->n_observers; i++)
+        if (s->observers[i].kind == OBSERVER_SITE) return true;
+    return s->n_observers == 0;
 }
 
 static void read_output(reading *rd, reader *root)
@@ -383,6 +423,7 @@ static void read_output(reading *rd, reader *root)
     glint_scenario *s = rd->s;
     s->sun_elevation_max = -6 * DEG;
     s->shares = SHARES_MATERIAL;
+    s->moon_columns = false;
     const toml_node *table = reader_table(root, "output", false);
     if (!table) return;
     reader r = reader_start(table, "[output]", rd->errors);
@@ -392,6 +433,7 @@ static void read_output(reading *rd, reader *root)
     reader_choice(&r, "shares", SHARES, 4, 1, &shares);
     reader_choice(&r, "standard_magnitudes", STANDARDS, 4, 0, &standard);
     reader_param(&r, &SUN, &sun_deg);
+    reader_boolean(&r, "moon", false, &s->moon_columns);
     s->rows = (rows_choice)rows;
     s->shares = (unsigned)shares;     /* 1 material, 2 component, 3 both */
     s->standard = (unsigned)standard; /* 1 at 90 deg, 2 at 0 deg, 3 both */
@@ -399,6 +441,12 @@ static void read_output(reading *rd, reader *root)
     if (s->has_geometry && s->rows != ROWS_ALL)
         reader_fail(&r, reader_place(&r, "rows"),
                     "directions given by [geometry] have no site; expected rows = \"all\"");
+    if (s->has_geometry && s->moon_columns)
+        reader_fail(&r, reader_place(&r, "moon"),
+                    "directions given by [geometry] have no Moon; expected moon = false");
+    if (!s->has_geometry && s->rows == ROWS_DARK_SITE && !any_site(s))
+        reader_fail(&r, reader_place(&r, "rows"),
+                    "no observer is a site that could be dark; expected rows = \"visible\"");
     reading_done(rd, &r);
 }
 
@@ -428,6 +476,24 @@ static bool wants_moon(const glint_scenario *s)
     return attitude_plan_wants(&s->attitude, DIRECTION_MOON);
 }
 
+/* Observers that are fixed in the body need its attitude, which must not look for them in turn. */
+static void check_body_directions(reading *rd)
+{
+    const glint_scenario *s = rd->s;
+    for (int i = 0; i < s->n_observers && rd->status == GLINT_OK; i++) {
+        const scenario_observer *o = &s->observers[i];
+        if (o->kind != OBSERVER_DIRECTION || !o->in_body) continue;
+        if (!s->has_attitude)
+            reading_note(rd, errors_add(rd->errors, GLINT_INPUT, o->where,
+                                        "the observer is fixed in the body frame, and there is no "
+                                        "[attitude]; expected one"));
+        else if (attitude_plan_wants(&s->attitude, DIRECTION_OBSERVER))
+            reading_note(rd, errors_add(rd->errors, GLINT_INPUT, o->where,
+                                        "the observer is fixed in the body frame, and the attitude "
+                                        "follows the observer; expected one of them"));
+    }
+}
+
 static bool names_satellite(reader *root)
 {
     /* all are asked for, so that all are known */
@@ -451,17 +517,13 @@ static void read_all(reading *rd, toml_document *document)
     } else {
         read_corrections(rd, &root);
         read_time(rd, &root);
-        read_observer(rd, &root);
+        read_observers(rd, &root);
         const toml_node *orbit_node = reader_table(&root, "orbit", true);
         if (orbit_node) read_orbit(rd, orbit_node, "[orbit]", &s->orbit);
         s->has_attitude = !rd->orbit_only || reader_has(&root, "attitude");
         if (s->has_attitude) read_attitude(rd, &root);
+        check_body_directions(rd);
     }
-    if (s->has_extinction && s->min_elevation < 0)
-        reader_fail(
-            &root, reader_place(&root, "observer"),
-            "extinction is wanted and min_elevation_deg is below 0, where there is no airmass; "
-            "expected one of them to be left out");
     read_telescope(rd, &root);
     read_output(rd, &root);
     s->has_satellite = !rd->orbit_only || names_satellite(&root);
@@ -603,6 +665,8 @@ void glint_scenario_free(glint_scenario *s)
     satellite_free(&s->satellite);
     scenario_orbit_free(&s->orbit);
     attitude_plan_free(&s->attitude);
+    observers_free(s);
+    eop_free(s->eop);
     free(s->geometry.sun);
     free(s->geometry.observer);
     free(s->geometry.range_m);

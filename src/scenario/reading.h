@@ -40,6 +40,9 @@ bool read_direction(reader *r, const char *key, bool required, direction *out);
 /* The table of an orbit; name: "[orbit]", for messages. */
 void read_orbit(reading *rd, const toml_node *table, const char *name, scenario_orbit *out);
 void scenario_orbit_free(scenario_orbit *o);
+/* [observer], or every [[observer]]: after [time]. */
+void read_observers(reading *rd, reader *root);
+void observers_free(glint_scenario *s);
 void read_attitude(reading *rd, reader *root);
 void read_hinge(reading *rd, const toml_node *table, hinge *out);
 void read_geometry(reading *rd, const toml_node *table);

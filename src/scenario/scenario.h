@@ -5,10 +5,13 @@
 #include "base/band.h"
 #include "base/csv.h"
 #include "facets/model.h"
+#include "facets/visibility.h"
 #include "orbit/attitude_plan.h"
 #include "orbit/earth.h"
 #include "orbit/hinge.h"
+#include "orbit/horizon.h"
 #include "orbit/orbit.h"
+#include "orbit/refraction.h"
 #include "scenario/toml.h"
 
 enum { SCENARIO_MAX_BANDS = 16 };
@@ -67,7 +70,36 @@ typedef struct scenario_orbit {
     orbit *propagator;              /* owned */
 } scenario_orbit;
 
-typedef enum self_shadows { SHADOWS_EXACT, SHADOWS_NONE } self_shadows;
+typedef enum observer_kind {
+    OBSERVER_SITE,      /* a place on the ground */
+    OBSERVER_SATELLITE, /* with an orbit of its own */
+    OBSERVER_DIRECTION  /* always in the same direction from the satellite */
+} observer_kind;
+
+/* Who looks. */
+typedef struct scenario_observer {
+    const char *name; /* "" where not said; borrowed from the document */
+    place where;      /* of its table */
+    observer_kind kind;
+    /* Of a site: */
+    earth_site site;
+    horizon horizon; /* owned: what is lower is not seen */
+    refraction air;
+    /* Of a satellite: */
+    scenario_orbit orbit;
+    /* Of a direction: */
+    bool in_body;        /* else in GCRS */
+    double direction[3]; /* unit, from the satellite to the observer */
+    double range_m;
+} scenario_observer;
+
+/* In the order of the words in read_scenario.c. */
+typedef enum self_shadows {
+    SHADOWS_EXACT,
+    SHADOWS_NONE,
+    SHADOWS_INTERPOLATED,
+    SHADOWS_RAYS
+} self_shadows;
 
 /* What the Sun is to the facets; to the Earth's shadow it is a disc in any case. */
 typedef enum solar_disc_choice {
@@ -98,6 +130,8 @@ typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
 enum { SHARES_MATERIAL = 1u, SHARES_COMPONENT = 2u };
 
+enum { DEFAULT_RAYS_PER_FACET = 64 };
+
 /* A geometry that is given, not computed: directions in the body frame. */
 typedef struct geometry_table {
     double (*sun)[3], (*observer)[3]; /* owned; unit, body */
@@ -111,6 +145,7 @@ typedef struct expectation {
     bool by_row; /* else by t_s */
     int64_t row;
     double t_s;
+    const char *observer; /* with t_s: its name; borrowed from the document */
     const char *column;
     bool empty;                       /* the cell must be empty (from a table) */
     double value, absolute, relative; /* |got - value| <= absolute + relative |value| */
@@ -160,9 +195,8 @@ struct glint_scenario {
     int64_t n_steps;
     double exposure_s; /* light is averaged over it, centred on a row's time; 0: a sample */
 
-    const char *site_name; /* "" where not said */
-    earth_site site;
-    double min_elevation; /* rad */
+    scenario_observer *observers; /* owned; in the order of the file */
+    int n_observers;              /* 0 only where directions are given */
 
     scenario_orbit orbit;
 
@@ -171,6 +205,8 @@ struct glint_scenario {
     bool needs_moon; /* attitude or a hinge asks for the Moon */
     satellite satellite;
     self_shadows self_shadows;
+    double shadow_step; /* rad; of SHADOWS_INTERPOLATED */
+    int rays_per_facet; /* of SHADOWS_RAYS */
 
     int n_bands;
     const band_info *bands[SCENARIO_MAX_BANDS];
@@ -185,8 +221,12 @@ struct glint_scenario {
 
     bool light_time, aberration;
     double dut1_s;
+    eop_table *eop;       /* owned; NULL: dut1_s throughout, and no polar motion */
+    const char *eop_name; /* of its file, as written; borrowed from the document */
+    place eop_where;
 
     rows_choice rows;
+    bool moon_columns;
     double sun_elevation_max; /* rad; of a dark site */
     unsigned shares;
     unsigned standard; /* STANDARD_... */
