@@ -13,7 +13,7 @@
  * integrals: of the flux in each band, then of the share of each material and component in the flux
  * of the first. */
 enum { PANEL_FROM, PANEL_LENGTH, PANEL_ERROR, PANEL_SUMS };
-enum { PAIR = 2, MOST_PANELS = 1 << 18 };
+enum { PAIR = 2, MOST_PANELS = 1 << 17 };
 
 _Static_assert(PAIR * KRONROD_POINTS <= TILE, "two panels fit into a tile");
 
