@@ -10,7 +10,7 @@ static const double Z[3] = {0.0, 0.0, 1.0};
 
 static double fraction(const double r_m[3], const double sun[3])
 {
-    return eclipse_sunlit_fraction(r_m, sun, AU_M, Z);
+    return eclipse_sunlit_fraction(r_m, sun, AU_M, Z, 0);
 }
 
 static void check_reference(const char *path)
@@ -24,7 +24,7 @@ static void check_reference(const char *path)
         scale3(sun, 1e3, sun);
         sub3(sun, r, sun);
         const double distance_m = unit3(sun, sun);
-        const double f = eclipse_sunlit_fraction(r, sun, distance_m, Z);
+        const double f = eclipse_sunlit_fraction(r, sun, distance_m, Z, 0);
         /* the same method, to the table's eight decimals; then the exact integral */
         assert_near(f, table_number(&t, k, "f_limbdisc_ellipsoid"), 6e-9);
         assert_near(f, table_number(&t, k, "f_ellipsoid"), 2.5e-4);
@@ -83,6 +83,43 @@ START_TEST(test_eclipse_discs_agree_with_strips)
             const double b = limbs[j], reach = fmin(a, b), d = fmax(a, b) + 0.1 * k * reach;
             assert_near(eclipse_disc_fraction(a, b, d), fraction_by_strips(a, b, d), 2e-7);
         }
+}
+END_TEST
+
+/* The light of a darkened disc past a straight edge (b very large) at x of its radius from the
+ * middle, as strips: those at y across the edge's normal have the light of a chord c = sqrt(1 -
+ * y^2), (1 - u) 2c + u (pi/2) c^2. */
+START_TEST(test_eclipse_darkened_disc_sets_as_strips_do)
+{
+    enum { N = 200000 };
+    static const double U = 0.6, A = 0.00465, B = 1e7;
+    for (int k = -9; k <= 9; k++) {
+        const double x = 0.1 * k; /* the edge; what is beyond it shines, and b reaches up to it */
+        double light = 0;
+        for (int j = 0; j < N; j++) {
+            const double y = x + (1 - x) * (j + 0.5) / N, c2 = 1 - y * y;
+            light += ((1 - U) * 2 * sqrt(c2) + U * PI / 2 * c2) * (1 - x) / N;
+        }
+        light /= PI * (1 - U / 3);
+        assert_near(eclipse_disc_light(A * 1e9, B * 1e9, (B - A * x) * 1e9, U), light, 2e-6);
+    }
+}
+END_TEST
+
+START_TEST(test_eclipse_darkened_disc_keeps_its_limits)
+{
+    for (int k = 0; k <= 40; k++) {
+        const double d = 0.05 * k;
+        assert_near(eclipse_disc_light(1, 0.7, d, 0), eclipse_disc_fraction(1, 0.7, d), 0);
+        const double plain = eclipse_disc_fraction(1, 0.7, d);
+        const double dark = eclipse_disc_light(1, 0.7, d, 0.6);
+        ck_assert(dark >= 0 && dark <= 1 && fabs(dark - plain) < 0.12);
+    }
+    /* A ring is left: its light from its brightness, integrated in closed form: with w = 1 - s^2
+     * the integral of 1 - u + u sqrt(w) from 0 to 1 - b^2. */
+    const double b = 0.7, w = 1 - b * b, u = 0.6;
+    assert_near(eclipse_disc_light(1, b, 0, u),
+                ((1 - u) * w + u * 2 / 3 * w * sqrt(w)) / (1 - u / 3), 1e-6);
 }
 END_TEST
 
@@ -217,7 +254,7 @@ START_TEST(test_eclipse_does_not_depend_on_frame)
         const double r[3] = {-7e6 * cos(d), 7e6 * sin(d) * cos(0.5), 7e6 * sin(d) * sin(0.5)};
         double turned_r[3];
         mat_vec(turn, r, turned_r);
-        assert_near(eclipse_sunlit_fraction(turned_r, turned_sun, AU_M, turned_pole),
+        assert_near(eclipse_sunlit_fraction(turned_r, turned_sun, AU_M, turned_pole, 0),
                     fraction(r, sun), 1e-10);
     }
 }
@@ -248,7 +285,7 @@ START_TEST(test_eclipse_by_the_moon_follows_closed_forms)
         const double d = CASES[k].separation, r = CASES[k].distance_m;
         const double moon[3] = {r * cos(d), 0.6 * r * sin(d), -0.8 * r * sin(d)};
         /* rounding of the angles, 1e-16 rad in 1e-3, where the discs touch by a square root */
-        assert_near(eclipse_moon_fraction(moon, sun, sun_m), CASES[k].fraction, 1e-7);
+        assert_near(eclipse_moon_fraction(moon, sun, sun_m, 0), CASES[k].fraction, 1e-7);
     }
 }
 END_TEST
@@ -267,7 +304,7 @@ START_TEST(test_eclipse_by_the_moon_agrees_with_another_program)
         const double moon[3] = {r * sin(d), 0, r * cos(d)};
         const double want = table_number(&t, row, "fraction");
         /* nine digits, of arc cosines that lose some */
-        assert_near(eclipse_moon_fraction(moon, sun, SUN_RADIUS_M / sin(a)), want, 2e-9);
+        assert_near(eclipse_moon_fraction(moon, sun, SUN_RADIUS_M / sin(a), 0), want, 2e-9);
         partial += want > 0 && want < 1;
     }
     ck_assert_int_gt(partial, 15);
@@ -311,6 +348,8 @@ int main(void)
     tcase_add_test(tcase, test_eclipse_discs_follow_closed_forms);
     tcase_add_test(tcase, test_eclipse_discs_agree_with_strips);
     tcase_add_test(tcase, test_eclipse_discs_take_point_sun);
+    tcase_add_test(tcase, test_eclipse_darkened_disc_sets_as_strips_do);
+    tcase_add_test(tcase, test_eclipse_darkened_disc_keeps_its_limits);
     tcase_add_test(tcase, test_eclipse_limb_is_equator_for_equatorial_geometry);
     tcase_add_test(tcase, test_eclipse_limb_is_ellipse_above_pole);
     tcase_add_test(tcase, test_eclipse_is_annular_from_far_away);

@@ -845,7 +845,7 @@ START_TEST(test_observers_moon_makes_the_eclipse_of_april_2024)
         sun_from_point(&f, r, true, sun, &distance_m);
         moon_position(&clock, t_s, NULL, moon);
         sub3(moon, r, moon);
-        if (eclipse_moon_fraction(moon, sun, distance_m) > 0) continue;
+        if (eclipse_moon_fraction(moon, sun, distance_m, 0) > 0) continue;
         if (from_s < 0) from_s = t_s;
         to_s = t_s;
     }

@@ -12,6 +12,9 @@
 #define PLANCK_J_S 6.62607015e-34   /* J s, exact (SI) */
 #define AU_M 149597870700.0         /* m, exact (IAU 2012 resolution B2) */
 #define SUN_RADIUS_M 695700e3       /* m, nominal (IAU 2015 resolution B3) */
+/* Linear limb darkening of the Sun: I(mu) is proportional to 1 - u (1 - mu), mu the cosine of the
+ * angle at which light leaves its surface. u at 550 nm: physics page, section 4. */
+#define SUN_LIMB_DARKENING 0.6
 
 #define EARTH_MU_M3_S2 398600.4418e9           /* m^3/s^2, EGM96 with atmosphere */
 #define EARTH_RADIUS_M 6378137.0               /* m, WGS84 equatorial radius */

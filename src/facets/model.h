@@ -20,10 +20,6 @@ typedef struct model_component {
 struct curved_span;
 struct lobe_shape;
 
-/* Linear limb darkening of the source: I(mu) is proportional to 1 - u (1 - mu), mu the cosine of
- * the angle at which its surface is left. u at 550 nm: 0.6 (physics page, section 4). */
-#define LIMB_DARKENING 0.6
-
 /* Points in the disc, in units of its radius, and weights that add to 1: rules from cheap to fine.
  */
 typedef enum disc_rule_kind {
@@ -45,7 +41,7 @@ typedef struct disc_rule {
 
 /* A source that is a disc, in each lane of a tile. */
 typedef struct source_disc {
-    bool limb_darkened;
+    bool limb_darkened; /* by SUN_LIMB_DARKENING */
     disc_rule rules[DISC_RULES];
     double radius[BRDF_TILE], scale[BRDF_TILE]; /* angular, rad, and its tangent; 0: a point */
 } source_disc;

@@ -54,7 +54,7 @@ void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
  * 2/3, 4/15, 16/105 for k = 0, 1, 2. */
 static void disc_moments(bool limb_darkened, double *s, double *s2)
 {
-    const double u = limb_darkened ? LIMB_DARKENING : 0.0, whole = 1.0 - u / 3.0;
+    const double u = limb_darkened ? SUN_LIMB_DARKENING : 0.0, whole = 1.0 - u / 3.0;
     *s = ((1.0 - u) / 2.0 + u * 4.0 / 15.0) / whole;
     *s2 = ((1.0 - u) / 3.0 + u * 16.0 / 105.0) / whole;
 }
@@ -64,7 +64,7 @@ static double brightness_at(bool limb_darkened, double s)
 {
     if (!limb_darkened) return 1.0;
     const double mu = s < 1.0 ? sqrt(1.0 - s) : 0.0;
-    return (1.0 - LIMB_DARKENING * (1.0 - mu)) / (1.0 - LIMB_DARKENING / 3.0);
+    return (1.0 - SUN_LIMB_DARKENING * (1.0 - mu)) / (1.0 - SUN_LIMB_DARKENING / 3.0);
 }
 
 /* Gauss's four points on 0..1 and their weights. */
@@ -461,9 +461,8 @@ typedef struct facet_axes {
 
 /* Lanes in which the facet is lit by some of the disc, and seen: -1. low: of these, the ones in
  * which the disc is near to the horizon or the two directions are near to each other. */
-CLONES static bool find_lit(const facet_axes *f, const brdf_light *light,
-                                  const source_disc *disc, double opposition,
-                                  int64_t lit[BRDF_TILE], int64_t low[BRDF_TILE])
+CLONES static bool find_lit(const facet_axes *f, const brdf_light *light, const source_disc *disc,
+                            double opposition, int64_t lit[BRDF_TILE], int64_t low[BRDF_TILE])
 {
     const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2];
     int64_t any = 0;
@@ -481,8 +480,8 @@ CLONES static bool find_lit(const facet_axes *f, const brdf_light *light,
 
 /* The scalar test of disc_push, loosened, for all lanes of a facet at once: adds to `wanted`. */
 CLONES static void find_blurred(const lobe_shape *shape, const facet_axes *f,
-                                      const brdf_light *light, const source_disc *disc,
-                                      const int64_t lit[BRDF_TILE], int64_t wanted[BRDF_TILE])
+                                const brdf_light *light, const source_disc *disc,
+                                const int64_t lit[BRDF_TILE], int64_t wanted[BRDF_TILE])
 {
     const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2], t0 = f->t[0], t1 = f->t[1];
     const double t2 = f->t[2], b0 = f->b[0], b1 = f->b[1], b2 = f->b[2];

@@ -193,6 +193,11 @@ static double moon_away_s(const double moon_m[3], const double sun[3])
     return (distance_m - NEAR_M) * sin(fmin(free, 0.5 * PI)) / SPEED_M_S;
 }
 
+static double limb_darkening(const glint_scenario *s)
+{
+    return s->solar_disc == SOLAR_LIMB_DARKENED ? SUN_LIMB_DARKENING : 0;
+}
+
 /* Visible fraction of the solar disc past the Moon, 1 nearly always. */
 static double past_moon(const glint_scenario *s, viewer *v, const sighting *seen)
 {
@@ -204,14 +209,14 @@ static double past_moon(const glint_scenario *s, viewer *v, const sighting *seen
     const double away_s = moon_away_s(moon, m->sun);
     v->no_moon_from_s = m->t_s - away_s;
     v->no_moon_to_s = m->t_s + away_s;
-    return eclipse_moon_fraction(moon, m->sun, seen->sun_distance_m);
+    return eclipse_moon_fraction(moon, m->sun, seen->sun_distance_m, limb_darkening(s));
 }
 
 double sighting_sunlit(const glint_scenario *s, viewer *v, const sighting *seen, bool *moon_covers)
 {
     const moment *m = &seen->moment;
-    const double past_earth =
-        eclipse_sunlit_fraction(m->r_m, m->sun, seen->sun_distance_m, m->itrs_gcrs + 6);
+    const double past_earth = eclipse_sunlit_fraction(m->r_m, m->sun, seen->sun_distance_m,
+                                                      m->itrs_gcrs + 6, limb_darkening(s));
     if (moon_covers) *moon_covers = false;
     if (!(past_earth > 0)) return past_earth;
     const double beside_moon = past_moon(s, v, seen);

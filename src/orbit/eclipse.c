@@ -27,7 +27,7 @@ static double limb_angle(const double r[3], const double p[3], const double pole
 }
 
 double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double sun_distance_m,
-                               const double pole[3])
+                               const double pole[3], double limb_darkening)
 {
     double r[3];
     scale3(r_m, 1.0 / EARTH_RADIUS_M, r);
@@ -47,7 +47,7 @@ double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double 
 
     eclipse_discs discs;
     eclipse_discs_at(r_m, sun, sun_distance_m, pole, &discs);
-    return eclipse_disc_fraction(discs.sun, discs.earth, discs.separation);
+    return eclipse_disc_light(discs.sun, discs.earth, discs.separation, limb_darkening);
 }
 
 void eclipse_discs_at(const double r_m[3], const double sun[3], double sun_distance_m,
@@ -68,7 +68,8 @@ void eclipse_discs_at(const double r_m[3], const double sun[3], double sun_dista
     out->separation = atan2(sin_d, dot3(sun, down));
 }
 
-double eclipse_moon_fraction(const double moon_m[3], const double sun[3], double sun_distance_m)
+double eclipse_moon_fraction(const double moon_m[3], const double sun[3], double sun_distance_m,
+                             double limb_darkening)
 {
     const double distance_m = norm3(moon_m);
     if (!(distance_m > MOON_RADIUS_M)) return 0.0;
@@ -78,7 +79,7 @@ double eclipse_moon_fraction(const double moon_m[3], const double sun[3], double
     if (distance_m > FAR_M && dot3(moon_m, sun) < APART * distance_m) return 1.0;
     const double sun_radius = asin(fmin(1.0, SUN_RADIUS_M / sun_distance_m));
     const double moon_radius = asin(MOON_RADIUS_M / distance_m);
-    return eclipse_disc_fraction(sun_radius, moon_radius, angle3(moon_m, sun));
+    return eclipse_disc_light(sun_radius, moon_radius, angle3(moon_m, sun), limb_darkening);
 }
 
 bool eclipse_earth_between(const double a_m[3], const double b_m[3], const double pole[3])
@@ -109,4 +110,33 @@ double eclipse_disc_fraction(double a, double b, double d)
     const double lens =
         a * a * (at_a - sin(at_a) * cos(at_a)) + b * b * (at_b - sin(at_b) * cos(at_b));
     return fmin(1.0, fmax(0.0, 1.0 - lens / (PI * a * a)));
+}
+
+/* The disc is made of uniform ones: with f(x) the uncovered fraction of one of radius x,
+ * integration by parts of the brightness over the radius gives, over the mean 1 - u/3,
+ *
+ *     (1 - u) f(a) + u (integral from 0 to pi/2 of sin^3 t f(a sin t))
+ *
+ * f bends where a disc comes to touch the other one's rim: there the integral is parted. */
+double eclipse_disc_light(double a, double b, double d, double limb_darkening)
+{
+    static const double POINT[5] = {-0.9061798459386640, -0.5384693101056831, 0.0,
+                                    0.5384693101056831, 0.9061798459386640}; /* Gauss */
+    static const double WEIGHT[5] = {0.1184634425280945, 0.2393143352496832, 0.2844444444444444,
+                                     0.2393143352496832, 0.1184634425280945}; /* over 2 */
+    const double whole = eclipse_disc_fraction(a, b, d), u = limb_darkening;
+    if (u == 0.0 || whole == 1.0 || whole == 0.0 || !(a > 0.0)) return whole;
+    enum { PARTS = 4 };
+    const double touch = asin(fmin(1.0, fabs(d - b) / a));
+    double integral = 0.0;
+    for (int side = 0; side < 2; side++) {
+        const double from = side ? touch : 0.0, length = (side ? 0.5 * PI - touch : touch) / PARTS;
+        for (int k = 0; k < PARTS; k++)
+            for (int g = 0; g < 5; g++) {
+                const double sine = sin(from + length * (k + 0.5 + 0.5 * POINT[g]));
+                integral +=
+                    WEIGHT[g] * length * sine * sine * sine * eclipse_disc_fraction(a * sine, b, d);
+            }
+    }
+    return fmin(1.0, ((1.0 - u) * whole + u * integral) / (1.0 - u / 3.0));
 }

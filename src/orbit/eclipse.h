@@ -5,14 +5,14 @@
 
 #include <stdbool.h>
 
-/* Visible fraction, 0 to 1, of a uniform solar disc above the limb of the WGS84 ellipsoid.
+/* Visible fraction, 0 to 1, of the light of the solar disc above the limb of the WGS84 ellipsoid.
  * r_m: geocentre to satellite; sun: unit vector from the satellite to the (apparent) Sun;
  * sun_distance_m: from the satellite; pole: unit vector along the Earth's axis; all in one frame.
  * The limb's angle is that of the ellipsoid in the plane satellite - centre - Sun; then the overlap
  * of two plane discs (physics page, section 7): within 3e-4 of the exact integral. A satellite
- * inside the ellipsoid is dark. Refraction is not modelled. */
+ * inside the ellipsoid is dark. Refraction is not modelled. limb_darkening: as below. */
 double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double sun_distance_m,
-                               const double pole[3]);
+                               const double pole[3], double limb_darkening);
 
 /* The two discs that the fraction follows from, as the satellite sees them; all in rad. */
 typedef struct eclipse_discs {
@@ -26,10 +26,11 @@ typedef struct eclipse_discs {
 void eclipse_discs_at(const double r_m[3], const double sun[3], double sun_distance_m,
                       const double pole[3], eclipse_discs *out);
 
-/* Visible fraction, 0 to 1, of a uniform solar disc beside the Moon's: the overlap of two plane
- * discs. moon_m: from the satellite to the Moon, m, not zero; sun: unit; sun_distance_m; in one
- * frame. A satellite inside the Moon is dark. */
-double eclipse_moon_fraction(const double moon_m[3], const double sun[3], double sun_distance_m);
+/* Visible fraction, 0 to 1, of the light of the solar disc beside the Moon's: the overlap of two
+ * plane discs. moon_m: from the satellite to the Moon, m, not zero; sun: unit; sun_distance_m; in
+ * one frame. A satellite inside the Moon is dark. */
+double eclipse_moon_fraction(const double moon_m[3], const double sun[3], double sun_distance_m,
+                             double limb_darkening);
 
 /* True when the WGS84 ellipsoid stands between two points outside it; m from the geocentre; pole:
  * unit vector along the Earth's axis; all in one frame. Refraction is not modelled. */
@@ -38,5 +39,9 @@ bool eclipse_earth_between(const double a_m[3], const double b_m[3], const doubl
 /* Uncovered fraction of a disc of angular radius a behind one of radius b at distance d (all rad,
  * at least 0, treated as plane). a = 0 is a point: 1 or 0. */
 double eclipse_disc_fraction(double a, double b, double d);
+/* The same of the light of a disc whose brightness at s of its radius from the middle is
+ * proportional to 1 - limb_darkening (1 - sqrt(1 - s^2)), linear limb darkening, 0 to 1: 0 is the
+ * uniform disc, above. To 1e-6. */
+double eclipse_disc_light(double a, double b, double d, double limb_darkening);
 
 #endif
