@@ -5,8 +5,8 @@
 
 /* --------------------------------------------------------------- a mirror */
 
-/* The Sun and the observer stay in the body's xz plane, in which a mirror's normal turns about y: its
- * image of the Sun crosses the observer through the middle of the disc once a turn. */
+/* The Sun and the observer stay in the body's xz plane, in which a mirror's normal turns about y:
+ * its image of the Sun crosses the observer through the middle of the disc once a turn. */
 #define MIRROR_SECONDS 30
 #define MIRROR_AREA_M2 2.0
 #define MIRROR_REFLECTS 0.8
@@ -52,8 +52,8 @@ static double flashes_by_hand(const run_rows *r, double chord, int *n_flashes)
         if (k > 0 && before < 0 && ahead >= 0 && ahead - before < 1) {
             const glint_row *last = &r->rows[k - 1];
             const double part = -before / (ahead - before);
-            const double phase = last->phase_angle_rad +
-                                 part * (row->phase_angle_rad - last->phase_angle_rad);
+            const double phase =
+                last->phase_angle_rad + part * (row->phase_angle_rad - last->phase_angle_rad);
             const double range_m = last->range_m + part * (row->range_m - last->range_m);
             const double rate = 2 * (ahead - before) / (row->t_s - last->t_s); /* of the image */
             /* a mirror's irradiance R A cos / (pi sin^2(q) d^2), the Sun's (1 au / d_sun)^2 */
@@ -154,7 +154,9 @@ START_TEST(test_exposure_of_diffuse_light_is_the_integral_of_the_samples)
     for (size_t k = 1; k + 1 < mean.n; k++) {
         double sum = 0;
         for (int i = 0; i <= 16; i++)
-            sum += (i == 0 || i == 16 ? 1 : i % 2 ? 4 : 2) *
+            sum += (i == 0 || i == 16 ? 1
+                    : i % 2           ? 4
+                                      : 2) *
                    fine.rows[20 * k - 8 + (size_t)i].flux_ratio[0];
         assert_rel(mean.rows[k].flux_ratio[0], sum / 48, 1e-8);
     }
@@ -169,19 +171,21 @@ END_TEST
 static run_rows run_tumbling(double exposure_s, int threads)
 {
     char text[4096];
-    snprintf(text, sizeof text,
-             "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 60\nstep_s = 5\nexposure_s = %.17g\n"
-             "%s%s[photometry]\nbands = [\"V\", \"B\"]\n[output]\nshares = \"both\"\n"
-             "[attitude]\nlaw = \"spin\"\nbody_axis = [0.2, 1, 0.3]\npole = \"north\"\n"
-             "rate_deg_s = 25\nphase_deg = 10\nepoch = 2025-07-25T20:37:00Z\n"
-             "[materials.gloss]\nbrdf = \"ward-gmd\"\nrho_d = 0.1\nrho_s = 0.5\nalpha_x = 0.02\n"
-             "alpha_y = 0.02\nbands.B = { rho_d = 0.3 }\n[materials.mirror]\nbrdf = \"mirror\"\nR = 0.9\n"
-             "[[component]]\nname = \"bus\"\n[[component.box]]\nsize_m = [1, 1, 2]\n"
-             "material = \"gloss\"\n[[component]]\nname = \"wing\"\nparent = \"bus\"\n"
-             "hinge = { origin_m = [0, 1, 0], axis = [0, 1, 0], angle_deg = 0, rate_deg_s = 3 }\n"
-             "[[component.plate]]\nsize_m = [1, 2]\ncentre_m = [0, 1.1, 0]\nnormal = [0, 0, 1]\n"
-             "tangent = [1, 0, 0]\nmaterial = \"mirror\"\nback_material = \"gloss\"\n",
-             exposure_s, SOUND[PART_OBSERVER], SOUND[PART_ORBIT]);
+    snprintf(
+        text, sizeof text,
+        "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 60\nstep_s = 5\nexposure_s = %.17g\n"
+        "%s%s[photometry]\nbands = [\"V\", \"B\"]\n[output]\nshares = \"both\"\n"
+        "[attitude]\nlaw = \"spin\"\nbody_axis = [0.2, 1, 0.3]\npole = \"north\"\n"
+        "rate_deg_s = 25\nphase_deg = 10\nepoch = 2025-07-25T20:37:00Z\n"
+        "[materials.gloss]\nbrdf = \"ward-gmd\"\nrho_d = 0.1\nrho_s = 0.5\nalpha_x = 0.02\n"
+        "alpha_y = 0.02\nbands.B = { rho_d = 0.3 }\n[materials.mirror]\nbrdf = \"mirror\"\nR = "
+        "0.9\n"
+        "[[component]]\nname = \"bus\"\n[[component.box]]\nsize_m = [1, 1, 2]\n"
+        "material = \"gloss\"\n[[component]]\nname = \"wing\"\nparent = \"bus\"\n"
+        "hinge = { origin_m = [0, 1, 0], axis = [0, 1, 0], angle_deg = 0, rate_deg_s = 3 }\n"
+        "[[component.plate]]\nsize_m = [1, 2]\ncentre_m = [0, 1.1, 0]\nnormal = [0, 0, 1]\n"
+        "tangent = [1, 0, 0]\nmaterial = \"mirror\"\nback_material = \"gloss\"\n",
+        exposure_s, SOUND[PART_OBSERVER], SOUND[PART_ORBIT]);
     glint_scenario *s = read_sound(write_file("tumbling.toml", text));
     const run_rows out = run(s, threads);
     glint_scenario_free(s);
@@ -202,8 +206,7 @@ START_TEST(test_exposure_two_halves_are_the_whole)
             const double x = of_component ? a->share_component[m] : a->share_material[i],
                          y = of_component ? b->share_component[m] : b->share_material[i],
                          z = of_component ? all->share_component[m] : all->share_material[i];
-            assert_near(z * all->flux_ratio[0],
-                        0.5 * (x * a->flux_ratio[0] + y * b->flux_ratio[0]),
+            assert_near(z * all->flux_ratio[0], 0.5 * (x * a->flux_ratio[0] + y * b->flux_ratio[0]),
                         1e-7 * all->flux_ratio[0]);
         }
         ck_assert_int_eq(all->flags & GLINT_DARK, 0);
@@ -261,9 +264,10 @@ START_TEST(test_exposure_of_a_satellite_that_turns_too_fast_is_an_error)
     memcpy(parts, MIRROR, sizeof parts);
     parts[PART_TIME] = "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 0\nstep_s = 1\n"
                        "exposure_s = 10\n";
-    glint_scenario *s = read_with(parts, PART_COMPONENT,
-                                  "[[component]]\nname = \"panel\"\nhinge = { origin_m = [0, 0, 0], "
-                                  "axis = [0, 1, 0], angle_deg = 0, rate_deg_s = 1e6 }\n");
+    glint_scenario *s =
+        read_with(parts, PART_COMPONENT,
+                  "[[component]]\nname = \"panel\"\nhinge = { origin_m = [0, 0, 0], "
+                  "axis = [0, 1, 0], angle_deg = 0, rate_deg_s = 1e6 }\n");
     glint_curve *curve;
     const glint_row *rows;
     size_t n;

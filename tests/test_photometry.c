@@ -12,12 +12,11 @@ START_TEST(test_photometry_bands_have_the_published_magnitudes_of_the_sun)
     static const struct {
         const char *name;
         double vega, ab;
-    } ALL[] = {{"U", -25.97, -25.25},     {"B", -26.13, -26.26}, {"V", -26.76, -26.77},
-               {"R", -27.15, -26.97},     {"I", -27.47, -27.06}, {"sdss_u", 0, -25.18},
-               {"sdss_g", 0, -26.47},     {"sdss_r", 0, -26.93}, {"sdss_i", 0, -27.05},
-               {"sdss_z", 0, -27.07},     {"lsst_u", 0, -25.30}, {"lsst_g", 0, -26.52},
-               {"lsst_r", 0, -26.93},     {"lsst_i", 0, -27.05}, {"lsst_z", 0, -27.07},
-               {"lsst_y", 0, -27.07}};
+    } ALL[] = {
+        {"U", -25.97, -25.25}, {"B", -26.13, -26.26}, {"V", -26.76, -26.77}, {"R", -27.15, -26.97},
+        {"I", -27.47, -27.06}, {"sdss_u", 0, -25.18}, {"sdss_g", 0, -26.47}, {"sdss_r", 0, -26.93},
+        {"sdss_i", 0, -27.05}, {"sdss_z", 0, -27.07}, {"lsst_u", 0, -25.30}, {"lsst_g", 0, -26.52},
+        {"lsst_r", 0, -26.93}, {"lsst_i", 0, -27.05}, {"lsst_z", 0, -27.07}, {"lsst_y", 0, -27.07}};
     size_t n = 0;
     while (band_at(n))
         n++;
@@ -42,7 +41,10 @@ START_TEST(test_photometry_photons_of_magnitude_zero_agree_with_another_calibrat
     static const struct {
         const char *name;
         double jansky, relative_width;
-    } ALL[] = {{"U", 1810, 0.15}, {"B", 4260, 0.22}, {"V", 3640, 0.16}, {"R", 3080, 0.23},
+    } ALL[] = {{"U", 1810, 0.15},
+               {"B", 4260, 0.22},
+               {"V", 3640, 0.16},
+               {"R", 3080, 0.23},
                {"I", 2550, 0.19}};
     for (size_t k = 0; k < COUNT_OF(ALL); k++)
         assert_rel(band_photons_m2_s(band_named(ALL[k].name), SYSTEM_VEGA),
@@ -62,7 +64,7 @@ START_TEST(test_photometry_airmass_follows_the_chosen_formula)
     assert_near(airmass_of(&s, 10 * DEG), 5.5860358799, 1e-10);
     s.airmass = AIRMASS_PICKERING;
     /* the formula in 20 digits; the horizon as published is 38.75 */
-    static const double PICKERING[][2] = {{0, 38.749398755780}, {1, 26.643769397641},
+    static const double PICKERING[][2] = {{0, 38.749398755780},  {1, 26.643769397641},
                                           {10, 5.5807371486819}, {30, 1.9931538464146},
                                           {60, 1.1540579205733}, {90, 1.0000001961713}};
     for (size_t k = 0; k < COUNT_OF(PICKERING); k++)
@@ -137,8 +139,8 @@ START_TEST(test_photometry_columns_of_standard_magnitudes_are_named_and_without_
     assert_near(last_value(BOTH, "mag_std_1000km_phase90_V"), at_90, 1e-12);
     assert_near(last_value(BOTH, "mag_std_1000km_phase0_V"), at_90 - 2.5 * log10(PI), 1e-12);
     ck_assert(isnan(last_value("", "mag_std_1000km_phase0_V")));
-    ck_assert(isnan(last_value("[output]\nstandard_magnitudes = \"phase0\"\n",
-                               "mag_std_1000km_phase90_V")));
+    ck_assert(isnan(
+        last_value("[output]\nstandard_magnitudes = \"phase0\"\n", "mag_std_1000km_phase90_V")));
 }
 END_TEST
 
@@ -233,12 +235,11 @@ START_TEST(test_photometry_scintillation_is_near_youngs_own_formula)
         telescope t = quiet();
         t.aperture_m = d;
         t.scintillation = 1;
-        const noise_view view = {
-            .magnitude = 5, .exposure_s = time, .airmass = x, .height_m = h};
+        const noise_view view = {.magnitude = 5, .exposure_s = time, .airmass = x, .height_m = h};
         noise_terms terms;
         noise_of(&t, 0, &view, &terms);
-        const double young = 0.09 * pow(100 * d, -2.0 / 3) * pow(x, 1.75) * exp(-h / 8000) /
-                             sqrt(2 * time);
+        const double young =
+            0.09 * pow(100 * d, -2.0 / 3) * pow(x, 1.75) * exp(-h / 8000) / sqrt(2 * time);
         assert_rel(terms.scintillation_e / terms.signal_e, young, 0.08);
         t.scintillation = 1.5;
         noise_terms more;
@@ -317,8 +318,8 @@ START_TEST(test_photometry_noise_of_a_row_is_that_of_the_telescope)
     /* a telescope that follows the satellite has a point to measure */
     s = read_scope(SCOPE "tracking = \"satellite\"\n");
     rows = run(s, 1);
-    const double signal = zero * pow(10, -0.4 * rows.rows[0].magnitude[0]) *
-                          pow(erf(2 / (sqrt(2.0) * sigma)), 2);
+    const double signal =
+        zero * pow(10, -0.4 * rows.rows[0].magnitude[0]) * pow(erf(2 / (sqrt(2.0) * sigma)), 2);
     assert_rel(noise_row_snr(s, rows.rows, 0),
                signal / sqrt(signal + 16 * zero * 1e-8 + 16 / 2.25 * (0.01 + 64)), 1e-12);
     rows_free(&rows);
@@ -403,14 +404,12 @@ START_TEST(test_photometry_wrong_telescopes_are_refused_at_their_place)
                        "exposure_s = 0.1\n";
     ASSERT_ALL_WRONG(parts, WRONG);
     static const wrong_text SAMPLES = {
-        PART_SETTINGS,
-        "@" AFTER("aperture_m = 1\nthroughput = 0.4\nsky_mag_arcsec2 = 20\n"), "must expose",
-        "exposure_s", 1};
+        PART_SETTINGS, "@" AFTER("aperture_m = 1\nthroughput = 0.4\nsky_mag_arcsec2 = 20\n"),
+        "must expose", "exposure_s", 1};
     assert_wrong(SOUND, &SAMPLES);
     static const wrong_text LABORATORY = {
-        PART_SETTINGS,
-        "@" AFTER("aperture_m = 1\nthroughput = 0.4\nsky_mag_arcsec2 = 20\n"), "[geometry]",
-        "no [telescope]", 1};
+        PART_SETTINGS, "@" AFTER("aperture_m = 1\nthroughput = 0.4\nsky_mag_arcsec2 = 20\n"),
+        "[geometry]", "no [telescope]", 1};
     assert_wrong(GIVEN, &LABORATORY);
     static const wrong_text TIMES = {
         PART_TIME,

@@ -24,15 +24,15 @@ struct glint_curve {
     unsigned wanted;         /* of the geometry */
     visibility *plan;        /* owned; NULL where no shadows are wanted or none can be */
     int n_threads;
-    tile_worker *workers; /* owned; n_threads */
+    tile_worker *workers;       /* owned; n_threads */
     exposure_worker *exposures; /* owned; n_threads; NULL where rows are samples */
-    frame_grid *grid;     /* owned; covers grid_from_s to grid_to_s */
+    frame_grid *grid;           /* owned; covers grid_from_s to grid_to_s */
     double grid_from_s, grid_to_s;
-    size_t block;             /* rows of a block */
-    int64_t next;             /* first row of the next block: observer after observer */
-    photometry_rows rows;     /* owned; block */
-    glint_row *chosen;        /* owned; block */
-    coverage watched;         /* measured materials */
+    size_t block;           /* rows of a block */
+    int64_t next;           /* first row of the next block: observer after observer */
+    photometry_rows rows;   /* owned; block */
+    glint_row *chosen;      /* owned; block */
+    coverage watched;       /* measured materials */
     unsigned char *outside; /* owned; block x watched.n: of coverage_mark */
     int64_t *n_outside;     /* owned; watched.n: rows handed out so far of which that holds */
     column_set columns;
@@ -188,10 +188,10 @@ static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, 
     const glint_status status =
         geometry_fill(s, c->grid, c->wanted, first, n, &w->geometry, &w->tile, w->lights, error);
     if (status) return status;
-    const photometry_rows rows = {
-        c->rows.rows + at, c->rows.flux_ratio + at * s->n_bands,
-        c->rows.magnitude + at * s->n_bands, c->rows.share_material + at * m->n_materials,
-        c->rows.share_component + at * m->n_components};
+    const photometry_rows rows = {c->rows.rows + at, c->rows.flux_ratio + at * s->n_bands,
+                                  c->rows.magnitude + at * s->n_bands,
+                                  c->rows.share_material + at * m->n_materials,
+                                  c->rows.share_component + at * m->n_components};
     const glint_status summed = tile_worker_sum(s, w, &rows, error);
     if (summed) return summed;
     if (c->watched.n > 0) coverage_mark(&c->watched, w, c->outside + at * c->watched.n);

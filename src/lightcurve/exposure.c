@@ -15,7 +15,7 @@
 enum { PANEL_FROM, PANEL_LENGTH, PANEL_ERROR, PANEL_SUMS };
 enum { PAIR = 2, MOST_PANELS = 1 << 17 };
 
-_Static_assert(PAIR * KRONROD_POINTS <= TILE, "two panels fit into a tile");
+_Static_assert(PAIR *KRONROD_POINTS <= TILE, "two panels fit into a tile");
 
 static size_t count_sums(const glint_scenario *s)
 {
@@ -66,7 +66,8 @@ typedef struct exposure {
     size_t n_sums;
 } exposure;
 
-/* Whether the Sun and the observer move little between the samples of a panel, in all components. */
+/* Whether the Sun and the observer move little between the samples of a panel, in all components.
+ */
 static bool moves_little(const exposure *x, int panel)
 {
     /* the square of the chord, on either side of which the sum of two motions may lie */
@@ -154,8 +155,7 @@ static glint_status grow(double **array, size_t needed, size_t *capacity, glint_
 
 static glint_status push(exposure_worker *e, double from_s, double length_s, glint_error *error)
 {
-    const glint_status status =
-        grow(&e->stack, 2 * (e->n_stack + 1), &e->stack_capacity, error);
+    const glint_status status = grow(&e->stack, 2 * (e->n_stack + 1), &e->stack_capacity, error);
     if (status) return status;
     e->stack[2 * e->n_stack] = from_s;
     e->stack[2 * e->n_stack++ + 1] = length_s;
@@ -178,7 +178,8 @@ static glint_status halve(const exposure *x, double most_error, glint_error *err
             return error_set(error, GLINT_INPUT, PLACE_NONE,
                              "the satellite turns too fast for its light to be averaged: more than "
                              "%d parts of one exposure; expected a shorter exposure_s, or slower "
-                             "turns", (int)MOST_PANELS);
+                             "turns",
+                             (int)MOST_PANELS);
         glint_status status =
             grow(&e->panels, (e->n_panels + PAIR) * width, &e->panel_capacity, error);
         if (status) return status;
@@ -228,8 +229,7 @@ static glint_status refine(const exposure *x, glint_error *error)
     for (size_t k = 0; k < n; k++) {
         const double *panel = panel_at(x, k);
         if (panel[PANEL_ERROR] > most_error) {
-            const glint_status status =
-                push(e, panel[PANEL_FROM], panel[PANEL_LENGTH], error);
+            const glint_status status = push(e, panel[PANEL_FROM], panel[PANEL_LENGTH], error);
             if (status) return status;
         } else if (kept++ != k) {
             memmove(panel_at(x, kept - 1), panel, width * sizeof *panel);

@@ -289,7 +289,8 @@ static void add_camera(const glint_scenario *s, fact_list *out)
             "'dark') are those of that time",
             value);
     for (int b = 0; s->has_telescope && b < s->n_bands; b++)
-        add(out, "telescope", "%.4g m; %s of magnitude 0 in %s gives %.4g electrons per s; sky %.4g "
+        add(out, "telescope",
+            "%.4g m; %s of magnitude 0 in %s gives %.4g electrons per s; sky %.4g "
             "mag per square arcsec; %s",
             s->telescope.aperture_m, "a star above the atmosphere", s->bands[b]->name,
             s->telescope.electrons_s[b], s->telescope.sky_mag[b],

@@ -28,8 +28,8 @@ static double fraction_in_box(const telescope *scope, double trail_rad)
 /* Relative scatter by scintillation. */
 static double scintillation(const telescope *scope, const noise_view *view)
 {
-    static const double YOUNG = 1e-5;    /* m^(4/3) s / (m^(2/3) s^(1/2))^2 */
-    static const double SCALE_M = 8000;  /* scale height of the atmosphere, m */
+    static const double YOUNG = 1e-5;   /* m^(4/3) s / (m^(2/3) s^(1/2))^2 */
+    static const double SCALE_M = 8000; /* scale height of the atmosphere, m */
     if (!(view->airmass > 0)) return 0;
     const double c = scope->scintillation;
     const double variance = YOUNG * c * c * pow(scope->aperture_m, -4.0 / 3.0) / view->exposure_s *
@@ -41,7 +41,7 @@ void noise_of(const telescope *scope, int band, const noise_view *view, noise_te
 {
     const double zero_e = scope->electrons_s[band] * view->exposure_s; /* of magnitude 0 */
     const double half = scope->half_width_rad, pixel = scope->pixel_rad;
-    const double box = 2 * half * (view->trail_rad + 2 * half);                     /* rad^2 */
+    const double box = 2 * half * (view->trail_rad + 2 * half);                  /* rad^2 */
     const double sky = pow(10, -0.4 * scope->sky_mag[band]) / (ARCSEC * ARCSEC); /* per rad^2 */
     out->fraction = fraction_in_box(scope, view->trail_rad);
     out->pixels = box / (pixel * pixel);

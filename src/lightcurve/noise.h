@@ -16,7 +16,7 @@ typedef struct noise_view {
 /* What ends up in the box around the trail, electrons; all but the signal are standard deviations.
  */
 typedef struct noise_terms {
-    double signal_e;        /* from the satellite, in the box */
+    double signal_e;         /* from the satellite, in the box */
     double fraction, pixels; /* part of the light that falls into the box; its area */
     double photon_e, sky_e, dark_e, read_e, scintillation_e;
 } noise_terms;

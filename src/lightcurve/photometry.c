@@ -75,12 +75,12 @@ glint_status photometry_rows_make(const glint_scenario *s, size_t n, photometry_
                                   glint_error *error)
 {
     const model *m = &s->satellite.model;
-    *out = (photometry_rows){
-        .rows = calloc(n, sizeof *out->rows),
-        .flux_ratio = calloc(n * (size_t)s->n_bands, sizeof(double)),
-        .magnitude = calloc(n * (size_t)s->n_bands, sizeof(double)),
-        .share_material = calloc(n * (size_t)m->n_materials, sizeof(double)),
-        .share_component = calloc(n * (size_t)m->n_components, sizeof(double))};
+    *out =
+        (photometry_rows){.rows = calloc(n, sizeof *out->rows),
+                          .flux_ratio = calloc(n * (size_t)s->n_bands, sizeof(double)),
+                          .magnitude = calloc(n * (size_t)s->n_bands, sizeof(double)),
+                          .share_material = calloc(n * (size_t)m->n_materials, sizeof(double)),
+                          .share_component = calloc(n * (size_t)m->n_components, sizeof(double))};
     if (out->rows && out->flux_ratio && out->magnitude && out->share_material &&
         out->share_component)
         return GLINT_OK;

@@ -275,8 +275,7 @@ static void read_extinction(reading *rd, reader *r)
                     EXPECTED);
         return;
     }
-    static const param_info EACH = {
-        "extinction", "mag per airmass", "", 0, 10, PARAM_REQUIRED, 0};
+    static const param_info EACH = {"extinction", "mag per airmass", "", 0, 10, PARAM_REQUIRED, 0};
     read_band_table(rd, r, node, &EACH, s->extinction);
 }
 
@@ -350,7 +349,7 @@ static void refuse_extinction(reader *r)
 static void read_photometry(reading *rd, reader *root)
 {
     static const char *const DISCS[] = {"uniform", "limb-darkened", "point"}; /* as the enum */
-    static const char *const AIRMASSES[] = {"kasten-young", "pickering"}; /* as the enum */
+    static const char *const AIRMASSES[] = {"kasten-young", "pickering"};     /* as the enum */
     static const toml_node NOTHING = {.type = TOML_TABLE};
     const toml_node *table = reader_table(root, "photometry", false);
     reader r = reader_start(table ? table : &NOTHING, "[photometry]", rd->errors);

@@ -51,9 +51,9 @@ static void read_zero_points(reading *rd, reader *r, double area_m2, telescope *
     double values[SCENARIO_MAX_BANDS] = {0};
     read_per_band(rd, r, point ? &POINT : &PART, values);
     for (int b = 0; b < s->n_bands; b++) {
-        out->electrons_s[b] = point ? pow(10, 0.4 * values[b])
-                                    : values[b] * area_m2 *
-                                          band_photons_m2_s(s->bands[b], s->systems[b]);
+        out->electrons_s[b] =
+            point ? pow(10, 0.4 * values[b])
+                  : values[b] * area_m2 * band_photons_m2_s(s->bands[b], s->systems[b]);
         if (isnan(out->electrons_s[b]))
             reader_fail(r, part->where,
                         "the width of band %s is not known, so that 'throughput' says too little; "
@@ -65,15 +65,16 @@ static void read_zero_points(reading *rd, reader *r, double area_m2, telescope *
 /* Lengths and areas that must fit to each other. */
 static void read_optics(reader *r, telescope *out, double *area_m2)
 {
-    static const param_info APERTURE = {"aperture_m", "m", "", 0, 100, PARAM_REQUIRED,
-                                        PARAM_MIN_OPEN};
+    static const param_info APERTURE = {"aperture_m",   "m",           "", 0, 100,
+                                        PARAM_REQUIRED, PARAM_MIN_OPEN};
     static const param_info OBSTRUCTION = {"obstruction_m", "m", "", 0, 100, 0, 0};
-    static const param_info PIXEL = {
-        "pixel_scale_arcsec", "arcsec", "", 0, 3600, PARAM_REQUIRED, PARAM_MIN_OPEN};
-    static const param_info SEEING = {
-        "seeing_fwhm_arcsec", "arcsec", "", 0, 3600, PARAM_REQUIRED, PARAM_MIN_OPEN};
-    static const param_info HALF = {"box_half_width_arcsec", "arcsec", "", 0, 36000, PARAM_NONE,
-                                    PARAM_MIN_OPEN | PARAM_OPTIONAL};
+    static const param_info PIXEL = {"pixel_scale_arcsec", "arcsec",      "", 0, 3600,
+                                     PARAM_REQUIRED,       PARAM_MIN_OPEN};
+    static const param_info SEEING = {"seeing_fwhm_arcsec", "arcsec",      "", 0, 3600,
+                                      PARAM_REQUIRED,       PARAM_MIN_OPEN};
+    static const param_info HALF = {
+        "box_half_width_arcsec",        "arcsec", "", 0, 36000, PARAM_NONE,
+        PARAM_MIN_OPEN | PARAM_OPTIONAL};
     double obstruction_m = 0, pixel = 1, seeing = 1, half;
     out->aperture_m = 1;
     reader_param(r, &APERTURE, &out->aperture_m);

@@ -48,8 +48,8 @@ void read_hinge(reading *rd, const toml_node *table, hinge *out);
 void read_geometry(reading *rd, const toml_node *table);
 /* The tables of a model: materials_from, materials, component. */
 void read_model_tables(reading *rd, reader *r);
-/* A table of one number for each of the scenario's bands; those of other bands may stand there. value:
- * its unit and range; out: n_bands. Errors go to the list and mark r as failed. */
+/* A table of one number for each of the scenario's bands; those of other bands may stand there.
+ * value: its unit and range; out: n_bands. Errors go to the list and mark r as failed. */
 void read_band_table(reading *rd, reader *r, const toml_node *node, const param_info *value,
                      double *out);
 void read_telescope(reading *rd, reader *root);
