@@ -416,6 +416,9 @@ START_TEST(test_photometry_wrong_telescopes_are_refused_at_their_place)
         "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 60\nstep_s = 10\nexposure_s = @-1\n",
         "exposure_s", "between 0 and", 1};
     assert_wrong(SOUND, &TIMES);
+    /* beside a telescope, too, it is one error */
+    parts[PART_SETTINGS] = AFTER("aperture_m = 1\nthroughput = 0.4\nsky_mag_arcsec2 = 20\n");
+    assert_wrong(parts, &TIMES);
 }
 END_TEST
 

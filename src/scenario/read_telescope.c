@@ -92,6 +92,17 @@ static void read_optics(reader *r, telescope *out, double *area_m2)
     *area_m2 = 0.25 * PI * (out->aperture_m * out->aperture_m - obstruction_m * obstruction_m);
 }
 
+/* Whether [time] has no exposure, or one of 0; one that is wrong is an error of its own. */
+static bool lacks_exposure(const reader *root)
+{
+    const toml_node *time = toml_child(root->table, "time");
+    if (!time || time->type != TOML_TABLE) return false;
+    const toml_node *exposure = toml_child(time, "exposure_s");
+    if (!exposure) return true;
+    return (exposure->type == TOML_FLOAT || exposure->type == TOML_INTEGER) &&
+           exposure->number == 0;
+}
+
 void read_telescope(reading *rd, reader *root)
 {
     static const char *const TRACKING[] = {"sidereal", "satellite"};
@@ -121,7 +132,7 @@ void read_telescope(reading *rd, reader *root)
         reader_fail(&r, table->where,
                     "directions given by [geometry] have no time in which to expose; expected no "
                     "[telescope]");
-    else if (!(s->exposure_s > 0))
+    else if (lacks_exposure(root))
         reader_fail(&r, table->where,
                     "a telescope must expose; expected exposure_s above 0 in [time]");
     s->has_telescope = true;
