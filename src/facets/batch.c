@@ -2,6 +2,13 @@
 
 #include <math.h>
 
+static const double ZERO = 0.0, ONE = 1.0;
+const brdf_facets BATCH_FACET = {.n = 1,
+                                 .normal = {&ZERO, &ZERO, &ONE},
+                                 .tangent = {&ONE, &ZERO, &ZERO},
+                                 .bitangent = {&ZERO, &ONE, &ZERO},
+                                 .area = &ONE};
+
 /* The pairs in the frames of their own normals: n = (x, y, 1) made unit, and the tangent (1, 0, 0)
  * made orthogonal to it. */
 static void turn_into_frames(const batch *b, brdf_light *light)
@@ -23,12 +30,6 @@ static void turn_into_frames(const batch *b, brdf_light *light)
 
 void batch_flush(batch *b)
 {
-    static const double zero = 0.0, one = 1.0;
-    static const brdf_facets unit = {.n = 1,
-                                     .normal = {&zero, &zero, &one},
-                                     .tangent = {&one, &zero, &zero},
-                                     .bitangent = {&zero, &one, &zero},
-                                     .area = &one};
     if (b->n == 0) return;
     for (int k = b->n; k < BRDF_TILE; k++) { /* spare lanes */
         for (int j = 0; j < 3; j++)
@@ -39,7 +40,7 @@ void batch_flush(batch *b)
     turn_into_frames(b, &light);
     brdf_light_finish(&light);
     double sum[BRDF_TILE] = {0};
-    brdf_material_tile(b->material, &unit, &light, b->area_m2, sum);
+    brdf_material_tile(b->material, &BATCH_FACET, &light, b->area_m2, sum);
     for (int k = 0; k < b->n; k++)
         b->sum[b->lane[k]] += sum[k];
     b->n = 0;

@@ -5,6 +5,9 @@
 
 #include "brdf/brdf.h"
 
+/* A facet of 1 m^2 in its own frame: its areas are given as what is visible of it. */
+extern const brdf_facets BATCH_FACET;
+
 /* Pairs with the matter that they meet. A lane's sum does not depend on the other lanes but for
  * the grouping of its own pairs, which is the same in every run. */
 typedef struct batch {

@@ -5,6 +5,7 @@
 #include "facets/batch.h"
 #include "facets/curved.h"
 #include "facets/solar_disc.h"
+#include "facets/spread.h"
 
 #define CURVED_ACTIVE 1.0
 #define CURVED_OFF 0.004
@@ -18,12 +19,6 @@
  * perfect mirror is found with pieces of 1.6 of these. */
 #define CURVED_MIRROR_WIDTH 5e-5
 
-/* A tile's light as seen from the facets: a cone about the bisectors. */
-typedef struct curved_spread {
-    double middle[3];    /* unit; 0 where the bisectors look every way */
-    double cosine, sine; /* of the widest angle of a bisector from it */
-} curved_spread;
-
 /* One lobe of a material on the facets of a span in one tile: the user sets the first lines and the
  * batch's material, the rest zero. */
 typedef struct curved_tile {
@@ -34,7 +29,7 @@ typedef struct curved_tile {
     const brdf_light *light;
     const source_disc *disc; /* NULL: the source is a point */
     batch batch;
-    curved_spread spread;
+    spread bisectors;
     double widest, longest_reach; /* of the lobe: width, rad; reach in any lane, in widths */
     double longest_disc;          /* of the disc, in widths */
 } curved_tile;

@@ -4,6 +4,7 @@
 #include "facets/curved.h"
 #include "facets/curved_parts.h"
 #include "facets/solar_disc.h"
+#include "facets/spread.h"
 
 #include <stdint.h>
 
@@ -198,35 +199,6 @@ static void add_arc(const scene *s, const curved_piece *p)
 
 /* --- facets --- */
 
-static curved_spread spread_of(const brdf_light *light)
-{
-    curved_spread s = {{0, 0, 0}, -1.0, 0.0};
-    for (int k = 0; k < BRDF_TILE; k++)
-        for (int j = 0; j < 3; j++)
-            s.middle[j] += light->h[j][k];
-    unit3(s.middle, s.middle);
-    double least = 1.0;
-    for (int k = 0; k < BRDF_TILE; k++) {
-        const double c = light->h[0][k] * s.middle[0] + light->h[1][k] * s.middle[1] +
-                         light->h[2][k] * s.middle[2];
-        if (!(c > 0.0)) return s;
-        least = fmin(least, c / light->hlen[k]);
-    }
-    s.cosine = least;
-    s.sine = sqrt(fmax(0.0, 1.0 - least * least));
-    return s;
-}
-
-/* False when the cosine of no bisector to the normal is above the root of cosine2. */
-static bool can_be_near(const curved_spread *s, const double normal[3], double cosine2)
-{
-    if (!(s->cosine > 0.0)) return true;
-    const double c = dot3(s->middle, normal), limit = sqrt(cosine2);
-    /* cos(reach + spread); the two together beyond 90 deg: do not judge */
-    const double bound = limit * s->cosine - sqrt(1.0 - cosine2) * s->sine;
-    return !(bound > 0.0) || c >= bound - 1e-12;
-}
-
 static void vector_at(const double *const v[3], int k, double out[3])
 {
     out[0] = v[0][k], out[1] = v[1][k], out[2] = v[2][k];
@@ -255,7 +227,7 @@ static double disc_reach(const curved_tile *t, int lane)
 
 void curved_tile_start(curved_tile *t)
 {
-    t->spread = spread_of(t->light);
+    t->bisectors = spread_of(t->light->h);
     t->widest = fmax(t->lobe->width[0], t->lobe->width[1]);
     for (int lane = 0; lane < BRDF_TILE; lane++) {
         t->longest_reach = fmax(t->longest_reach, reach_of(t, lane));
@@ -291,9 +263,9 @@ static void add_image(const curved_tile *t, const scene *s, const double e1[3],
         }
         if (!inside) continue;
         const double q = 1.0 + at[0] * at[0] + at[1] * at[1];
-        const double spread = p->area_m2 / (0.5 * fabs(whole)) * density_at(p, at[0], at[1]) * q *
+        const double per_sr = p->area_m2 / (0.5 * fabs(whole)) * density_at(p, at[0], at[1]) * q *
                               sqrt(q); /* dA / dw, m^2/sr */
-        s->batch->sum[s->lane] += s->part * points->weight[k] * 0.25 * spread *
+        s->batch->sum[s->lane] += s->part * points->weight[k] * 0.25 * per_sr *
                                   brdf_material_specular(s->batch->material, 0.5 * norm3(h));
     }
 }
@@ -409,7 +381,7 @@ bool curved_add_near(curved_tile *t, int k, double left[BRDF_TILE])
     const double near = near_of(t->lobe, k, t->longest_reach) + t->longest_disc;
     const double slope = t->widest * near; /* at most */
     const double cosine2 = 1.0 / (1.0 + slope * slope);
-    if (!can_be_near(&t->spread, frame + 6, cosine2) ||
+    if (!spread_can_be_near(&t->bisectors, frame + 6, cosine2) ||
         !bisector_cosines(t->light, frame + 6, cosine2, hn))
         return false;
     bool any = false;

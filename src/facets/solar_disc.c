@@ -8,15 +8,11 @@
 #include <math.h>
 #include <stdint.h>
 
-/* How far a point Sun is off is a matter of z, the change of the lobe's logarithm from the middle
- * of the disc to its rim: the mean of exp(z x) over a uniform disc is 1 + z^2/8, and of exp(-z^2
- * x^2/2) 1 - z^2/4 Up to this the middle alone is within 5e-4 (half a millimagnitude) of the mean,
- * as is every rule within its limits. */
-#define Z_POINT 0.045
-/* The logarithm of lobes that fall off as a power of the angle changes by no more per width. */
-#define WING_POWER 3.0
-/* Nearer to the horizon than this, in radii of the disc, g may follow the root of the cosine. */
-#define LOW 6.0
+/* A point Sun is off by size^2 (D^2 - 2)/8 of a Gaussian lobe's value: size is how far the bisector
+ * runs while the source crosses from the middle of its disc to the rim, D how far the bisector is
+ * from the lobe's top, both in widths of the lobe. Up to this size^2 max(2, D^2 - 2) the middle
+ * alone is within 8e-4. */
+#define POINT_ERROR 6.4e-3
 /* And so near to opposition, in radii of the disc, powders have cusps. */
 #define OPPOSITION 8.0
 
@@ -28,6 +24,41 @@ static bool has_surge(const brdf_lobe *lobe)
     const double i[3] = {away, 0.0, up}, r[3] = {away * cos(apart), away * sin(apart), up};
     const double together = lobe->model->eval(brdf_lobe_coef(lobe), i, i);
     return fabs(lobe->model->eval(brdf_lobe_coef(lobe), i, r) - together) > CHANGE * together;
+}
+
+static double f_at(const brdf_lobe *lobe, double tilt)
+{
+    const double i[3] = {sin(tilt), 0.0, cos(tilt)};
+    return lobe->model->eval(brdf_lobe_coef(lobe), i, i) / (i[2] * i[2]);
+}
+
+/* How f, with all that the material reflects besides, bends at a distance from the lobe's top:
+ * f''/f and f'/(f distance), per width^2. */
+static double bend_at(const brdf_lobe *lobe, double width, double distance)
+{
+    const double step = fmax(0.2, 0.05 * distance);
+    const double f = f_at(lobe, distance * width), on = f_at(lobe, (distance + step) * width);
+    const double before = f_at(lobe, (distance - step) * width);
+    if (!(f > 0.0)) return 0.0;
+    return (fabs(on - 2.0 * f + before) / (step * step) +
+            fabs(on - before) / (2.0 * step * distance)) /
+           f;
+}
+
+/* Looks how a lobe of that width falls: as a power of the distance at most, and to where. */
+static void look_at_wings(const brdf_lobe *lobe, double width, lobe_shape *out)
+{
+    static const double FAR = 1.2;     /* rad */
+    static const double SLIGHT = 1e-3; /* bends that need no care, under discs of two widths */
+    out->wing = 0.0;
+    out->end = 0.0;
+    for (double d = 1.0; d * width < FAR; d *= 1.12) {
+        const double bend = bend_at(lobe, width, d);
+        if (bend < SLIGHT) continue;
+        out->wing = fmax(out->wing, d * sqrt(bend));
+        out->end = 1.12 * d;
+    }
+    if (out->end * width > 0.8 * FAR) out->end = HUGE_VAL;
 }
 
 void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
@@ -45,6 +76,7 @@ void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
     }
     out->narrow = 1.0 / fmin(out->width[0], out->width[1]);
     out->surge = has_surge(lobe);
+    look_at_wings(lobe, 1.0 / out->narrow, out);
 }
 
 /* --- the disc's own moments --- */
@@ -271,21 +303,21 @@ static double asin_within(double x)
     return asin(fmin(fmax(x, -1.0), 1.0));
 }
 
-/* Integrates over the part of the disc that lies beyond `from` along the first of two orthogonal
- * axes (from = -1: all of it), with the lobe's top at `top` in these axes, and its width along them
- * given. x = sin psi, y = cos psi sin chi: then nothing is singular at the rim. */
+/* Integrates over the disc along two orthogonal axes, with the lobe's top at `top` in these axes,
+ * and its width along them given. x = sin psi, y = cos psi sin chi: then nothing is singular at the
+ * rim. */
 typedef struct patch {
-    double along[2], from, top[2], width[2], reach;
+    double along[2], top[2], width[2], reach;
 } patch;
 
 /* Points of a rule over the panels of a line between -c and c, in the angle whose sine is the place
  * over c; parts too long for cosines are cut on. */
-typedef struct rule {
+typedef struct line_rule {
     int n;
     double angle[5 * 4 * MOST_ENDS], weight[5 * 4 * MOST_ENDS];
-} rule;
+} line_rule;
 
-static void fill_rule(const panels *line, double c, rule *out)
+static void fill_rule(const panels *line, double c, line_rule *out)
 {
     static const double LONGEST = 1.6; /* rad: Gauss's rule gives squared cosines to 1e-5 */
     out->n = 0;
@@ -305,7 +337,7 @@ static void push_line(const scene *s, const patch *p, double psi, double weight)
 {
     const double x = sin(psi), c = cos(psi);
     const panels line = cut(-c, c, p->top[1], p->width[1], p->reach);
-    rule points;
+    line_rule points;
     fill_rule(&line, c, &points);
     for (int k = 0; k < points.n; k++) {
         const double y = c * sin(points.angle[k]);
@@ -317,20 +349,27 @@ static void push_line(const scene *s, const patch *p, double psi, double weight)
 
 static void push_patch(const scene *s, const patch *p)
 {
-    const panels line = cut(fmax(p->from, -1.0), 1.0, p->top[0], p->width[0], p->reach);
-    rule points;
+    const panels line = cut(-1.0, 1.0, p->top[0], p->width[0], p->reach);
+    line_rule points;
     fill_rule(&line, 1.0, &points);
     for (int k = 0; k < points.n; k++)
         push_line(s, p, points.angle[k], points.weight[k] * cos(points.angle[k]) / PI);
 }
 
-/* The part of the disc above the facet's horizon, where nothing is narrow. */
-static void push_risen(const scene *s)
+/* Where the disc sets behind the facet's plane its light is that of a point at the mean height of
+ * what is still up: exact where g goes with the cosine of incidence, as it does for most surfaces
+ * so low. With the middle at x radii, the mean of max(0, x + y) over a uniform disc is A below;
+ * over a part of it whose brightness goes with mu, the polynomial. */
+static void push_set(const scene *s)
 {
-    const patch p = {.along = {1.0, 0.0},
-                     .from = -s->i[2] / (s->scale * s->e1[2]),
-                     .width = {HUGE_VAL, HUGE_VAL}};
-    push_patch(s, &p);
+    const double u = s->disc->limb_darkened ? SUN_LIMB_DARKENING : 0.0;
+    const double x = fmin(1.0, s->i[2] / s->scale), x2 = x * x;
+    const double a = (sqrt(fmax(0.0, 1.0 - x2)) * (2.0 + x2) / 3.0 + x * (0.5 * PI + asin(x))) / PI;
+    const double polynomial = 0.125 + x / 3.0 + x2 / 4.0 - x2 * x2 / 24.0;
+    const double up = s->scale * ((1.0 - u) * a + u * polynomial) / (1.0 - u / 3.0);
+    const double level = sqrt((1.0 - up * up) / (s->i[0] * s->i[0] + s->i[1] * s->i[1]));
+    const double i[3] = {level * s->i[0], level * s->i[1], up};
+    batch_push(s->batch, s->sample->lane, i, s->r, 0.0, 0.0, s->area_m2);
 }
 
 /* Finds the point, in radii, at which the bisector does not lean: the lobe's top. Its axes there.
@@ -356,13 +395,12 @@ static bool find_top(const scene *s, double top[2], ellipse *shape)
 static void push_narrow(const scene *s)
 {
     double top[2];
-    ellipse shape;
+    ellipse shape = {{1.0, 0.0}, {0.0, 0.0}};
     if (!find_top(s, top, &shape)) {
         push_rule(s, &s->disc->rules[DISC_FOUR]);
         return;
     }
     const patch p = {.along = {shape.along[0], shape.along[1]},
-                     .from = -1.0,
                      .top = {top[0] * shape.along[0] + top[1] * shape.along[1],
                              top[1] * shape.along[0] - top[0] * shape.along[1]},
                      .width = {1.0 / shape.size[0], 1.0 / shape.size[1]},
@@ -387,27 +425,24 @@ static void push_mirror(const scene *s)
                                       bright / (PI * sine * sine);
 }
 
-/* How the lobe's logarithm changes over the disc: from its size and distance from the lobe's top,
- * in widths. */
-static double change_of(double size, double distance, double reach)
+/* The cheapest rule that will do, DISC_NARROW where the disc is large against the lobe. size of the
+ * disc and distance from the lobe's top in its widths. */
+static inline double rule_for(double size, double distance, double wing)
 {
-    return size * (reach < HUGE_VAL ? 1.0 + distance : fmin(1.0 + distance, WING_POWER));
+    const double far = distance > 1.0 ? distance : 1.0, over = wing / far;
+    const double fall = distance < over ? distance : over;  /* of the logarithm, per width */
+    const double here = distance < 2.0 + size ? size : 0.0; /* the disc reaches the core */
+    const double bend = fall * fall;
+    const double least = here > 0.0 ? 2.0 : 0.0, steep = size * fall / 1.6;
+    const double change = steep > here ? steep : here;
+    const double finer = (change > 0.28 ? 1.0 : 0.0) + (change > 0.62 ? 1.0 : 0.0) +
+                         (change > 1.0 ? 1.0 : 0.0) + (change > 1.5 ? 1.0 : 0.0) +
+                         (change > 2.0 ? 1.0 : 0.0);
+    return size * size * (bend > least ? bend : least) > POINT_ERROR ? 1.0 + finer : 0.0;
 }
 
-/* The cheapest rule that will do; DISC_RULES: none of them does. z: the change; size: of the disc,
- * in widths of the lobe. */
-static disc_rule_kind rule_for(double z, double size)
-{
-    static const struct {
-        disc_rule_kind rule;
-        double most_z, most_size;
-    } LIMITS[] = {{DISC_CENTRE, Z_POINT, Z_POINT}, {DISC_CROSS, 0.5, 0.35},
-                  {DISC_RING, 1.2, 0.7},           {DISC_TWO, 2.0, 1.0},
-                  {DISC_THREE, 3.0, 1.5},          {DISC_FOUR, 4.0, 2.0}};
-    for (int k = 0; k < DISC_RULES; k++)
-        if (z <= LIMITS[k].most_z && size <= LIMITS[k].most_size) return LIMITS[k].rule;
-    return DISC_RULES;
-}
+_Static_assert(DISC_CENTRE == 0 && DISC_CROSS == 1 && DISC_FOUR == 5 && DISC_NARROW == 6,
+               "rule_for counts the limits that are passed");
 
 /* Powders have cusps at opposition. */
 static bool is_at_surge(const scene *s)
@@ -416,6 +451,20 @@ static bool is_at_surge(const scene *s)
     if (!s->sample->shape->surge) return false;
     sub3(s->i, s->r, apart);
     return norm3(apart) < OPPOSITION * s->scale;
+}
+
+static disc_rule_kind rule_of(const scene *s)
+{
+    lean l;
+    double h[3];
+    const lobe_shape *shape = s->sample->shape;
+    add3(s->i, s->r, h);
+    const bool has_lean = lean_at(s, 0.0, 0.0, &l);
+    const double size = has_lean ? largest_size(&l) : 0.0;
+    const double distance = has_lean ? sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]) : 0.0;
+    const bool past = (distance - size) * norm3(h) > 2.0 * shape->end;
+    const int rule = past ? DISC_CENTRE : (int)rule_for(size, distance, shape->wing);
+    return is_at_surge(s) && rule < DISC_FOUR ? DISC_FOUR : (disc_rule_kind)rule;
 }
 
 void disc_push(batch *b, const disc_sample *sample, const double i[3], const double r[3],
@@ -432,24 +481,95 @@ void disc_push(batch *b, const disc_sample *sample, const double i[3], const dou
         push_mirror(&s);
         return;
     }
-    if (s.i[2] <= -s.scale * s.e1[2]) return; /* all of it has set */
-    lean l;
-    const bool has_lean = lean_at(&s, 0.0, 0.0, &l);
-    const double size = has_lean ? largest_size(&l) : 0.0;
-    const double distance = has_lean ? sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]) : 0.0;
-    double h[3];
-    add3(i, r, h);
-    const bool past = (distance - size) * norm3(h) > 2.0 * sample->shape->reach;
-    disc_rule_kind which =
-        past ? DISC_CENTRE : rule_for(change_of(size, distance, sample->shape->reach), size);
-    if (s.i[2] < LOW * s.scale && which < DISC_RING) which = DISC_RING;
-    if (is_at_surge(&s) && which < DISC_FOUR) which = DISC_FOUR;
-    if (which == DISC_RULES)
+    if (s.i[2] <= -s.scale) return; /* all of it has set */
+    const disc_rule_kind rule = rule_of(&s);
+    if ((int)rule == DISC_NARROW)
         push_narrow(&s);
-    else if (s.i[2] < s.scale * s.e1[2])
-        push_risen(&s);
+    else if (s.i[2] < s.scale)
+        push_set(&s);
     else
-        push_rule(&s, &s.disc->rules[which]);
+        push_rule(&s, &s.disc->rules[rule]);
+}
+
+/* --- many samples by one rule --- */
+
+/* The axes of the disc, as look_at makes them. */
+CLONES static void find_axes(const disc_queue *q, double e1[3][BRDF_TILE], double e2[3][BRDF_TILE])
+{
+    for (int k = 0; k < BRDF_TILE; k++) {
+        const double x = q->i[0][k], y = q->i[1][k], z = q->i[2][k];
+        const double across2 = x * x + y * y, scale = 1.0 / sqrt(across2 > 1e-12 ? across2 : 1.0);
+        e1[0][k] = -z * x * scale;
+        e1[1][k] = -z * y * scale;
+        e1[2][k] = across2 * scale;
+        e2[0][k] = y * e1[2][k] - z * e1[1][k];
+        e2[1][k] = z * e1[0][k] - x * e1[2][k];
+        e2[2][k] = x * e1[1][k] - y * e1[0][k];
+    }
+    for (int k = 0; k < BRDF_TILE; k++) {
+        if (q->i[0][k] * q->i[0][k] + q->i[1][k] * q->i[1][k] > 1e-12) continue;
+        scene s;
+        look_at(&s, (double[3]){q->i[0][k], q->i[1][k], q->i[2][k]},
+                (double[3]){q->r[0][k], q->r[1][k], q->r[2][k]});
+        for (int j = 0; j < 3; j++)
+            e1[j][k] = s.e1[j], e2[j][k] = s.e2[j];
+    }
+}
+
+CLONES static void move_source(const disc_queue *q, const double e1[3][BRDF_TILE],
+                               const double e2[3][BRDF_TILE], double x, double y, brdf_light *light)
+{
+    for (int k = 0; k < BRDF_TILE; k++) {
+        const double a = q->scale[k] * x, b = q->scale[k] * y;
+        const double c = 1.0 / sqrt(1.0 + a * a + b * b);
+        double hh = 0.0;
+        for (int j = 0; j < 3; j++) {
+            const double i = c * (q->i[j][k] + a * e1[j][k] + b * e2[j][k]);
+            light->i[j][k] = i;
+            light->h[j][k] = i + q->r[j][k];
+            hh += light->h[j][k] * light->h[j][k];
+        }
+        light->hh[k] = hh;
+        light->hlen[k] = sqrt(hh);
+    }
+}
+
+void disc_queue_flush(disc_queue *q, const brdf_material *material, const disc_rule *rule)
+{
+    if (q->n == 0) return;
+    for (int k = q->n; k < BRDF_TILE; k++) { /* spare lanes */
+        for (int j = 0; j < 3; j++)
+            q->i[j][k] = q->i[j][0], q->r[j][k] = q->r[j][0];
+        q->scale[k] = q->scale[0];
+        q->area_m2[k] = 0.0;
+    }
+    _Alignas(64) double e1[3][BRDF_TILE], e2[3][BRDF_TILE], sum[BRDF_TILE] = {0};
+    _Alignas(64) double part[BRDF_TILE];
+    brdf_light light;
+    memcpy(light.r, q->r, sizeof light.r);
+    find_axes(q, e1, e2);
+    for (int p = 0; p < rule->n; p++) {
+        move_source(q, (const double(*)[BRDF_TILE])e1, (const double(*)[BRDF_TILE])e2, rule->x[p],
+                    rule->y[p], &light);
+        for (int k = 0; k < BRDF_TILE; k++)
+            part[k] = q->area_m2[k] * rule->weight[p];
+        brdf_material_tile(material, &BATCH_FACET, &light, part, sum);
+    }
+    for (int k = 0; k < q->n; k++)
+        q->sum[q->lane[k]] += sum[k];
+    q->n = 0;
+}
+
+void disc_queue_push(disc_queue *q, const brdf_material *material, const disc_rule *rule,
+                     double scale, int lane, const double i[3], const double r[3], double area_m2)
+{
+    const int k = q->n++;
+    for (int j = 0; j < 3; j++)
+        q->i[j][k] = i[j], q->r[j][k] = r[j];
+    q->scale[k] = scale;
+    q->area_m2[k] = area_m2;
+    q->lane[k] = lane;
+    if (q->n == BRDF_TILE) disc_queue_flush(q, material, rule);
 }
 
 /* --- which lanes --- */
@@ -459,29 +579,34 @@ typedef struct facet_axes {
     double n[3], t[3], b[3];
 } facet_axes;
 
-/* Lanes in which the facet is lit by some of the disc, and seen: -1. low: of these, the ones in
- * which the disc is near to the horizon or the two directions are near to each other. */
-CLONES static bool find_lit(const facet_axes *f, const brdf_light *light, const source_disc *disc,
-                            double opposition, int64_t lit[BRDF_TILE], int64_t low[BRDF_TILE])
+/* Rules for lanes in which the facet is lit by some of the disc and seen: where the disc is about
+ * to set, or the two directions are near to each other. lit: 1, else 0. Returns how many are lit.
+ */
+CLONES FLATTEN static double find_lit(const facet_axes *f, const brdf_light *light,
+                                      const source_disc *disc, double opposition,
+                                      double lit[BRDF_TILE], double rule[BRDF_TILE])
 {
     const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2];
-    int64_t any = 0;
     for (int k = 0; k < BRDF_TILE; k++) {
-        const double q = disc->radius[k];
+        const double q = disc->scale[k], near = opposition * q;
         const double ci = n0 * light->i[0][k] + n1 * light->i[1][k] + n2 * light->i[2][k];
         const double cr = n0 * light->r[0][k] + n1 * light->r[1][k] + n2 * light->r[2][k];
-        lit[k] = -(int64_t)(q > 0.0) & -(int64_t)(ci > -1.01 * q) & -(int64_t)(cr > BRDF_EDGE);
-        low[k] = lit[k] & (-(int64_t)(ci < LOW * 1.01 * q) |
-                           -(int64_t)(light->hh[k] > 4.0 - opposition * opposition * q * q));
-        any |= lit[k];
+        const double up = q > 0.0 ? ci + q : -1.0, both = up < cr - BRDF_EDGE ? up : cr - BRDF_EDGE;
+        const double surge = light->hh[k] > 4.0 - near * near ? DISC_FOUR : 0.0;
+        const double special = ci < q ? DISC_SET : surge;
+        lit[k] = both > 0.0 ? 1.0 : 0.0;
+        rule[k] = both > 0.0 ? special : 0.0;
     }
-    return any != 0;
+    double n = 0.0;
+    for (int k = 0; k < BRDF_TILE; k++)
+        n += lit[k];
+    return n;
 }
 
-/* The scalar test of disc_push, loosened, for all lanes of a facet at once: adds to `wanted`. */
-CLONES static void find_blurred(const lobe_shape *shape, const facet_axes *f,
-                                const brdf_light *light, const source_disc *disc,
-                                const int64_t lit[BRDF_TILE], int64_t wanted[BRDF_TILE])
+/* rule_for in all lanes; size is an upper bound, as the source's way may be foreshortened. */
+CLONES FLATTEN static void find_blurred(const lobe_shape *shape, const facet_axes *f,
+                                        const brdf_light *light, const source_disc *disc,
+                                        const double lit[BRDF_TILE], double rule[BRDF_TILE])
 {
     const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2], t0 = f->t[0], t1 = f->t[1];
     const double t2 = f->t[2], b0 = f->b[0], b1 = f->b[1], b2 = f->b[2];
@@ -489,37 +614,37 @@ CLONES static void find_blurred(const lobe_shape *shape, const facet_axes *f,
     const double narrow_x = shape->specular ? 1.0 : 1.0 / shape->width[0];
     const double narrow_y = shape->specular ? 1.0 : 1.0 / shape->width[1];
     const double narrow = shape->specular ? 1.0 : shape->narrow;
-    const double least = shape->specular ? 0.0 : Z_POINT;
-    const bool wings = !(shape->reach < HUGE_VAL);
-    const double reach = wings ? 1e30 : shape->reach, power = wings ? WING_POWER : 1e30;
+    const double end = shape->end < HUGE_VAL ? 2.0 * shape->end : 1e30;
+    const double wing = shape->wing;
+    const double always = shape->specular ? (double)DISC_NARROW : 0.0;
     for (int k = 0; k < BRDF_TILE; k++) {
         const double h0 = light->h[0][k], h1 = light->h[1][k], h2 = light->h[2][k];
         const double hn = n0 * h0 + n1 * h1 + n2 * h2, up = 1.0 / (hn > 1e-30 ? hn : 1e-30);
         const double x = (t0 * h0 + t1 * h1 + t2 * h2) * up;
         const double y = (b0 * h0 + b1 * h1 + b2 * h2) * up;
         const double distance = sqrt(x * x * narrow_x * narrow_x + y * y * narrow_y * narrow_y);
-        const double size = 1.1 * disc->radius[k] * narrow * up * (1.0 + sqrt(x * x + y * y));
-        const double fall = 1.0 + distance < power ? 1.0 + distance : power;
-        wanted[k] |= lit[k] & -(int64_t)(size * fall > least) &
-                     -(int64_t)((distance - size) * light->hlen[k] <= 2.0 * reach);
+        const double size = 1.01 * disc->scale[k] * narrow * up * sqrt(1.0 + x * x + y * y);
+        const double ruled = rule_for(size, distance, wing), here = ruled > always ? ruled : always;
+        const double inside = (distance - size) * light->hlen[k] <= end ? lit[k] * here : 0.0;
+        const double best = inside > rule[k] ? inside : rule[k];
+        rule[k] = inside == DISC_NARROW ? inside : best;
     }
 }
 
-uint32_t disc_lanes(const lobe_shape *shape, const brdf_facets *facets, int which,
-                    const brdf_light *light, const source_disc *disc)
+bool disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
+                   const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE])
 {
     facet_axes f;
-    int64_t lit[BRDF_TILE], wanted[BRDF_TILE];
+    _Alignas(64) double lit[BRDF_TILE], any = 0.0;
     for (int j = 0; j < 3; j++) {
         f.n[j] = facets->normal[j][which];
         f.t[j] = facets->tangent[j][which];
         f.b[j] = facets->bitangent[j][which];
     }
-    if (!find_lit(&f, light, disc, shape->surge ? OPPOSITION : 0.0, lit, wanted)) return 0;
+    if (find_lit(&f, light, disc, shape->surge ? OPPOSITION : 0.0, lit, rule) == 0.0) return false;
     if (shape->specular || shape->narrow > 1.0 / LOBE_WIDEST)
-        find_blurred(shape, &f, light, disc, lit, wanted);
-    uint32_t bits = 0;
+        find_blurred(shape, &f, light, disc, lit, rule);
     for (int k = 0; k < BRDF_TILE; k++)
-        bits |= (uint32_t)(wanted[k] & 1) << k;
-    return bits;
+        any += rule[k];
+    return any != 0.0;
 }

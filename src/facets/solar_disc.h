@@ -18,8 +18,10 @@ typedef struct lobe_shape {
     double width[2]; /* rad, along and across the tangent, at most LOBE_WIDEST */
     double narrow;   /* 1 / the smaller one */
     double reach;    /* past it nothing is left, in widths, at phase angle 0; may be infinite */
+    double end;      /* past it the disc need not be minded, in widths; may be infinite */
     bool specular;   /* all of it in the mirror direction */
     bool surge;      /* f changes over less than a few degrees of the phase angle */
+    double wing;     /* power of the distance from its top with which it falls at most */
 } lobe_shape;
 
 /* In place of the width of what has no lobe along one axis, rad. */
@@ -40,8 +42,29 @@ typedef struct disc_sample {
 void disc_push(batch *b, const disc_sample *sample, const double i[3], const double r[3],
                double area_m2);
 
-/* Which lanes of a facet need more than the centre of the disc. Returns a bit for each. */
-uint32_t disc_lanes(const lobe_shape *shape, const brdf_facets *facets, int which,
-                    const brdf_light *light, const source_disc *disc);
+/* What disc_rules_of says besides the rules of source_disc: */
+enum {
+    DISC_NARROW = DISC_RULES, /* a lobe narrower than the disc, or a mirror */
+    DISC_SET                  /* the disc sets behind the facet's plane */
+};
+
+/* Which rule each lane of a flat facet takes, DISC_CENTRE where the middle of the disc will do;
+ * false where it does in all of them. DISC_NARROW and DISC_SET are for disc_push. */
+bool disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
+                   const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE]);
+
+/* Samples that wait for the same rule; zero-initialise. */
+typedef struct disc_queue {
+    _Alignas(64) double i[3][BRDF_TILE], r[3][BRDF_TILE]; /* unit; t, b, n */
+    double scale[BRDF_TILE], area_m2[BRDF_TILE];
+    int lane[BRDF_TILE], n;
+    double sum[BRDF_TILE]; /* by lane, m^2/sr */
+} disc_queue;
+
+/* Adds the mean over the disc, by that rule, of a facet's light; scale: of source_disc. */
+void disc_queue_push(disc_queue *q, const brdf_material *material, const disc_rule *rule,
+                     double scale, int lane, const double i[3], const double r[3], double area_m2);
+/* `sum` is complete then. */
+void disc_queue_flush(disc_queue *q, const brdf_material *material, const disc_rule *rule);
 
 #endif

@@ -345,7 +345,7 @@ void observers_free(glint_scenario *s)
 {
     for (int i = 0; i < s->n_observers; i++) {
         horizon_free(&s->observers[i].horizon);
-        orbit_free(s->observers[i].orbit.propagator);
+        scenario_orbit_free(&s->observers[i].orbit);
     }
     free(s->observers);
 }
