@@ -41,6 +41,17 @@ for file in "$dir"/materials/*.toml; do
     [ "$(grep -c '^source = ".' "$file")" = "$n" ] || fail "$name: a material has no source"
     [ "$(grep -c '^status = ".' "$file")" = "$n" ] || fail "$name: a material has no status"
 done
+# Exposures against brute force: Simpson's rule over moments 2 ms apart, in the flashes.
+rows() { "$glint" run "$dir/flashes-vienna.toml" --quiet "$@" | grep -v '^#' | tail -n +2; }
+means=$(rows | awk -F, '$2 > 91 && $2 < 113 { print $2, $4 }')
+brute=$(rows --set time.start=2025-07-25T20:38:31Z --set time.end=2025-07-25T20:38:53Z \
+    --set time.step_s=0.002 --set time.exposure_s=1e-7 | awk -F, '
+    NR > 1 { sum += 0.002 / 3 * (NR % 2 == 0 ? 4 * $4 : $4 + first); if (NR % 2) first = $4 }
+    NR == 1 { first = $4 }
+    NR > 1 && (NR - 1) % 1000 == 0 { printf "%d %.17g\n", 90 + 2 * (NR - 1) / 1000, sum / 2; sum = 0 }')
+paste -d ' ' <(echo "$means") <(echo "$brute") | awk '
+    { off = $2 / $4 - 1; if ($1 != $3 || off > 1e-5 || off < -1e-5) bad = 1; n++ }
+    END { exit bad || n != 11 }' || fail "exposures of flashes-vienna.toml differ from sums of moments"
 # A material can be set wherever its file is; one that no file has cannot.
 plain=$("$glint" run "$dir/iss-vienna.toml" --quiet | sed -n '/^#/!p' | cksum)
 for key in materials.mli.rho_d materials.white-paint.rho; do

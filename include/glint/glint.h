@@ -113,6 +113,8 @@ typedef struct glint_row {
     double sun_elevation_rad; /* topocentric, geometric */
     double airmass;           /* 0 below the horizon */
     double height_m;          /* geodetic, of the satellite; 0 where nothing asks for it */
+    double angular_rate_rad_s; /* against the stars; 0 where nothing asks for it */
+    double site_height_m;      /* of the observer above the ellipsoid; 0 where it is no site */
     double moon_azimuth_rad, moon_elevation_rad; /* topocentric, geometric */
     double moon_separation_rad;                  /* between satellite and Moon, from the observer */
     double moon_illuminated;                     /* fraction of the Moon's disc */

@@ -15,6 +15,8 @@ typedef struct band_info {
     double sun_vega, sun_ab; /* apparent magnitude of the Sun at 1 au; NAN where not published */
     double site_extinction;  /* mag per airmass at the LSST site; NAN where the scenario must say */
     magnitude_system system; /* its usual system */
+    double relative_width;   /* width over wavelength, with the filter's peak as 1; NAN where the
+                                scenario must give a zero point */
 } band_info;
 
 /* Band k of the table from 0; NULL past the end. */
@@ -23,6 +25,11 @@ const band_info *band_at(size_t k);
 const band_info *band_named(const char *name);
 /* The Sun's magnitude in a system; NAN where there is none. */
 double band_sun_magnitude(const band_info *band, magnitude_system system);
+/* Photons per s and m^2 above the atmosphere from a star of magnitude 0 whose spectrum is flat per
+ * frequency, through a filter whose peak is 1: the flux of AB magnitude 0 over Planck's constant,
+ * times the relative width. Magnitudes of the Vega system become AB ones by the Sun's magnitudes in
+ * both. NAN where the width or the Sun's magnitude is not known. */
+double band_photons_m2_s(const band_info *band, magnitude_system system);
 const char *magnitude_system_name(magnitude_system system);
 /* Where the table's numbers come from. */
 #define BAND_SOURCE "Willmer 2018, ApJS 236, 47"

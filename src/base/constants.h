@@ -9,6 +9,7 @@
 #define DAY_S 86400.0         /* s per day */
 
 #define LIGHT_SPEED_M_S 299792458.0 /* m/s, exact (SI) */
+#define PLANCK_J_S 6.62607015e-34   /* J s, exact (SI) */
 #define AU_M 149597870700.0         /* m, exact (IAU 2012 resolution B2) */
 #define SUN_RADIUS_M 695700e3       /* m, nominal (IAU 2015 resolution B3) */
 /* Linear limb darkening of the Sun: I(mu) is proportional to 1 - u (1 - mu), mu the cosine of the

@@ -16,29 +16,13 @@
 #include "brdf/dhr.h"
 
 #include "base/constants.h"
+#include "base/kronrod.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Kronrod's 15 points on 0..1 and their weights; Gauss's 7 are among them, and the difference of
- * the two tells the error (Kronrod 1965, Nodes and Weights of Quadrature Formulas; computed anew
- * in 40 digits from the Stieltjes polynomial). */
-enum { POINTS = 15, SAMPLES = POINTS * POINTS };
-static const double node[POINTS] = {
-    0.0042723144395936804, 0.025446043828620738, 0.067567788320115464, 0.1292344072003028,
-    0.2069563822661544,    0.29707742431130142,  0.39610752249605077,  0.5,
-    0.60389247750394923,   0.70292257568869858,  0.79304361773384557,  0.8707655927996972,
-    0.93243221167988454,   0.97455395617137926,  0.99572768556040632};
-static const double kronrod[POINTS] = {
-    0.011467661005264612, 0.03154604631498928,  0.052395005161125092, 0.070326629857762959,
-    0.084502363319633951, 0.095175289032392705, 0.10221647003764945,  0.10474107054236391,
-    0.10221647003764945,  0.095175289032392705, 0.084502363319633951, 0.070326629857762959,
-    0.052395005161125092, 0.03154604631498928,  0.011467661005264612};
-static const double gauss[POINTS] = {0, 0.064742483084434847, 0, 0.13985269574463833,
-                                     0, 0.19091502525255947,  0, 0.20897959183673469,
-                                     0, 0.19091502525255947,  0, 0.13985269574463833,
-                                     0, 0.064742483084434847, 0};
+enum { POINTS = KRONROD_POINTS, SAMPLES = POINTS * POINTS };
 
 /* 5 million samples: about 20 ms. */
 enum { MAX_CELLS = 22000 };
@@ -125,13 +109,13 @@ static void sample(const integral *it, const cell *c, double out[SAMPLES])
                                .area = &one};
     ray rays[POINTS];
     for (int a = 0; a < POINTS; a++)
-        rays[a] = make_ray(it, c->quadrant, c->y + c->dy * node[a]);
+        rays[a] = make_ray(it, c->quadrant, c->y + c->dy * KRONROD_NODES[a]);
     for (int first = 0; first < SAMPLES; first += BRDF_TILE) {
         brdf_light light;
         double jacobian[BRDF_TILE], g[BRDF_TILE] = {0};
         for (int k = 0; k < BRDF_TILE; k++) {
             const int s = first + k < SAMPLES ? first + k : SAMPLES - 1;
-            const double w = c->w + c->dw * node[s % POINTS];
+            const double w = c->w + c->dw * KRONROD_NODES[s % POINTS];
             jacobian[k] = set_lane(&light, k, it, &rays[s / POINTS], w);
         }
         brdf_material_tile(&it->lobe, &facet, &light, NULL, g);
@@ -157,12 +141,12 @@ static void integrate_cell(const integral *it, cell *c)
     for (int a = 0; a < POINTS; a++) {
         double along = 0.0, along_gauss = 0.0;
         for (int b = 0; b < POINTS; b++) {
-            along += kronrod[b] * f[a * POINTS + b];
-            along_gauss += gauss[b] * f[a * POINTS + b];
+            along += KRONROD[b] * f[a * POINTS + b];
+            along_gauss += KRONROD_GAUSS[b] * f[a * POINTS + b];
         }
-        value += kronrod[a] * along;
-        gauss_w += kronrod[a] * along_gauss;
-        gauss_y += gauss[a] * along;
+        value += KRONROD[a] * along;
+        gauss_w += KRONROD[a] * along_gauss;
+        gauss_y += KRONROD_GAUSS[a] * along;
     }
     const double area = c->dw * c->dy;
     const double error_w = rule_error(value - gauss_w, value);

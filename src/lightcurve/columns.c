@@ -2,7 +2,10 @@
 
 #include "base/constants.h"
 #include "base/text.h"
+#include "lightcurve/noise.h"
+#include "lightcurve/photometry.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,6 +47,36 @@ static bool add_bands(const glint_scenario *s, column_set *set)
     return good;
 }
 
+/* Magnitudes at 1000 km, where they are asked for. */
+static bool add_standard(const glint_scenario *s, column_set *set)
+{
+#define DIFFUSE "no extinction; taken to 1000 km, and as a diffuse sphere's to a phase angle of "
+    bool good = true;
+    for (int b = 0; s->standard & STANDARD_PHASE_90 && b < s->n_bands; b++)
+        good = good && add(set, COLUMN_STANDARD_90, b, "mag_std_1000km_phase90_", s->bands[b]->name,
+                           "mag", DIFFUSE "90 deg");
+    for (int b = 0; s->standard & STANDARD_PHASE_0 && b < s->n_bands; b++)
+        good = good && add(set, COLUMN_STANDARD_0, b, "mag_std_1000km_phase0_", s->bands[b]->name,
+                           "mag", DIFFUSE "0");
+    return good;
+#undef DIFFUSE
+}
+
+/* What the telescope makes of it. */
+static bool add_telescope(const glint_scenario *s, column_set *set)
+{
+    bool good = true;
+    if (!s->has_telescope) return true;
+    for (int b = 0; b < s->n_bands; b++)
+        good = good && add(set, COLUMN_SIGMA, b, "sigma_mag_", s->bands[b]->name, "mag",
+                           "standard deviation of one exposure's magnitude; empty when dark");
+    for (int b = 0; b < s->n_bands; b++)
+        good = good && add(set, COLUMN_SNR, b, "snr_", s->bands[b]->name, "",
+                           "signal to noise of one exposure; empty when dark");
+    return good && add(set, COLUMN_ANGULAR_RATE, 0, "angular_rate_arcsec_s", "", "arcsec/s",
+                       "of the satellite against the stars, from the observer");
+}
+
 /* Sites among the observers, and those that have refraction. */
 static void count_sites(const glint_scenario *s, int *sites, int *refracted)
 {
@@ -67,7 +100,8 @@ static bool add_site(const glint_scenario *s, column_set *set)
            add(set, COLUMN_SUN_ELEVATION, 0, "sun_elevation_deg", "", "deg",
                "of the Sun at the site, geometric") &&
            add(set, COLUMN_AIRMASS, 0, "airmass", "", "",
-               "Kasten and Young 1989; empty below the horizon");
+               s->airmass == AIRMASS_PICKERING ? "Pickering 2002; empty below the horizon"
+                                               : "Kasten and Young 1989; empty below the horizon");
 }
 
 static bool add_moon(const glint_scenario *s, column_set *set)
@@ -101,19 +135,19 @@ static bool add_shares(const glint_scenario *s, column_set *set)
                    "share of the first band's flux, without the component's children; empty when "
                    "dark");
     for (int i = 0; i < s->satellite.n_surfaces; i++)
-        good = good && add(set, COLUMN_SHARE_SURFACE, i, "share_surface_",
-                           s->satellite.surfaces[i].name, "",
-                           "share of the first band's flux; empty when dark");
+        good = good &&
+               add(set, COLUMN_SHARE_SURFACE, i, "share_surface_", s->satellite.surfaces[i].name,
+                   "", "share of the first band's flux; empty when dark");
     return good;
 }
 
 glint_status column_set_make(const glint_scenario *s, column_set *set, glint_error *error)
 {
     const model *m = &s->satellite.model;
-    const size_t most =
-        24 + 3 * (size_t)s->n_bands + (size_t)m->n_materials + (size_t)m->n_components +
-        (size_t)s->satellite.n_surfaces;
-    *set = (column_set){.columns = calloc(most, sizeof *set->columns),
+    const size_t most = 24 + 7 * (size_t)s->n_bands + (size_t)m->n_materials +
+                        (size_t)m->n_components + (size_t)s->satellite.n_surfaces;
+    *set = (column_set){.s = s,
+                        .columns = calloc(most, sizeof *set->columns),
                         .kinds = calloc(most, sizeof *set->kinds),
                         .indices = calloc(most, sizeof *set->indices),
                         .names = calloc(most, sizeof *set->names)};
@@ -123,7 +157,7 @@ glint_status column_set_make(const glint_scenario *s, column_set *set, glint_err
     if (good && s->n_observers > 1)
         good = add(set, COLUMN_OBSERVER, 0, "observer", "", "", "name of the observer");
     good = good && add(set, COLUMN_T, 0, "t_s", "", "s", "TT seconds from the start") &&
-           add_bands(s, set) &&
+           add_bands(s, set) && add_standard(s, set) && add_telescope(s, set) &&
            add(set, COLUMN_RANGE, 0, "range_km", "", "km", "observer to satellite") &&
            add(set, COLUMN_PHASE, 0, "phase_angle_deg", "", "deg",
                "at the satellite, between Sun and observer; 0 is full") &&
@@ -145,6 +179,24 @@ void column_set_free(column_set *set)
     free(set->kinds);
     free(set->indices);
     *set = (column_set){0};
+}
+
+static bool standard_magnitude(const glint_scenario *s, const glint_row *row, int band,
+                               double phase, double *value)
+{
+    if (!(row->flux_ratio[band] > 0)) return false;
+    *value = magnitude_of(row->flux_ratio[band], s->sun_magnitude[band]) +
+             magnitude_to_standard(row->range_m, row->phase_angle_rad, phase);
+    return isfinite(*value);
+}
+
+static bool noise_value(const column_set *set, const glint_row *row, size_t column, double *value)
+{
+    const int band = set->indices[column];
+    if (!(row->flux_ratio[band] > 0)) return false;
+    const double snr = noise_row_snr(set->s, row, band);
+    *value = set->kinds[column] == COLUMN_SNR ? snr : noise_sigma_mag(snr);
+    return isfinite(*value) && snr > 0;
 }
 
 /* What only a site sees, rad. */
@@ -175,6 +227,16 @@ bool column_value(const column_set *set, const glint_row *row, size_t column, do
         return true;
     case COLUMN_EARTHSHINE:
         *value = row->earthshine_flux_ratio[i];
+        return true;
+    case COLUMN_STANDARD_90:
+        return standard_magnitude(set->s, row, i, 0.5 * PI, value);
+    case COLUMN_STANDARD_0:
+        return standard_magnitude(set->s, row, i, 0, value);
+    case COLUMN_SNR:
+    case COLUMN_SIGMA:
+        return noise_value(set, row, column, value);
+    case COLUMN_ANGULAR_RATE:
+        *value = row->angular_rate_rad_s / ARCSEC;
         return true;
     case COLUMN_RANGE:
         *value = row->range_m * 1e-3;

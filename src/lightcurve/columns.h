@@ -9,8 +9,13 @@ typedef enum column_kind {
     COLUMN_OBSERVER,
     COLUMN_UTC,
     COLUMN_T,
-    COLUMN_MAGNITUDE, /* index: band */
-    COLUMN_FLUX,      /* index: band */
+    COLUMN_MAGNITUDE,   /* index: band */
+    COLUMN_FLUX,        /* index: band */
+    COLUMN_STANDARD_90, /* index: band; at 1000 km and a phase angle of 90 deg */
+    COLUMN_STANDARD_0,  /* at 1000 km, full */
+    COLUMN_SIGMA,       /* index: band */
+    COLUMN_SNR,         /* index: band */
+    COLUMN_ANGULAR_RATE,
     COLUMN_EARTHSHINE, /* index: band */
     COLUMN_RANGE,
     COLUMN_PHASE,
@@ -30,10 +35,11 @@ typedef enum column_kind {
 } column_kind;
 
 typedef struct column_set {
-    glint_column *columns; /* owned */
-    column_kind *kinds;    /* owned */
-    int *indices;          /* owned */
-    char **names;          /* owned, each: those that were put together */
+    const glint_scenario *s; /* borrowed */
+    glint_column *columns;   /* owned */
+    column_kind *kinds;      /* owned */
+    int *indices;            /* owned */
+    char **names;            /* owned, each: those that were put together */
     size_t n;
 } column_set;
 

@@ -82,7 +82,7 @@ static glint_status predict(glint_comparison *c, light_meter *meter, const order
         if (status) return status;
         for (size_t k = 0; k < count; k++) {
             const size_t row = order[first + k].row;
-            fill(c->s, &c->s->observed.rows[row], &meter->rows[k], &c->items[row]);
+            fill(c->s, &c->s->observed.rows[row], &meter->photometry.rows[k], &c->items[row]);
         }
     }
     return GLINT_OK;

@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "lightcurve/columns.h"
 #include "lightcurve/coverage.h"
+#include "lightcurve/exposure.h"
 #include "lightcurve/facts.h"
 #include "lightcurve/tile.h"
 
@@ -22,15 +23,14 @@ struct glint_curve {
     unsigned wanted;         /* of the geometry */
     visibility *plan;        /* owned; NULL where no shadows are wanted or none can be */
     int n_threads;
-    tile_worker *workers; /* owned; n_threads */
-    frame_grid *grid;     /* owned; covers grid_from_s to grid_to_s */
+    tile_worker *workers;       /* owned; n_threads */
+    exposure_worker *exposures; /* owned; n_threads; NULL where rows are samples */
+    frame_grid *grid;           /* owned; covers grid_from_s to grid_to_s */
     double grid_from_s, grid_to_s;
-    size_t block;             /* rows of a block */
-    int64_t next;             /* first row of the next block: observer after observer */
-    glint_row *rows, *chosen; /* owned; block */
-    double *flux_ratio, *magnitude, *share_material, *share_component; /* owned */
-    double *share_surface;  /* owned; NULL where surfaces are not told apart */
-    double *earthshine;     /* owned; NULL where the scenario wants none */
+    size_t block;           /* rows of a block */
+    int64_t next;           /* first row of the next block: observer after observer */
+    photometry_rows rows;   /* owned; block */
+    glint_row *chosen;      /* owned; block */
     coverage watched;       /* measured materials */
     unsigned char *outside; /* owned; block x watched.n: of coverage_mark */
     int64_t *n_outside;     /* owned; watched.n: rows handed out so far of which that holds */
@@ -44,6 +44,11 @@ static bool make_workers(glint_curve *c)
     if (!c->workers) return false;
     for (int i = 0; i < c->n_threads; i++)
         if (tile_worker_make(c->s, c->plan, &c->workers[i], NULL)) return false;
+    if (!(c->s->exposure_s > 0)) return true;
+    c->exposures = calloc((size_t)c->n_threads, sizeof *c->exposures);
+    if (!c->exposures) return false;
+    for (int i = 0; i < c->n_threads; i++)
+        if (exposure_worker_make(c->s, &c->exposures[i], NULL)) return false;
     return true;
 }
 
@@ -57,19 +62,11 @@ static bool make_rows(glint_curve *c)
     const size_t width = (has_earth ? 3 : 2) * n_bands + n_materials + n_components + n_surfaces;
     const size_t fitting = BLOCK_NUMBERS / width / TILE * TILE;
     c->block = fitting < TILE ? TILE : fitting > BLOCK_MOST ? BLOCK_MOST : fitting;
-    c->rows = calloc(c->block, sizeof *c->rows);
     c->chosen = calloc(c->block, sizeof *c->chosen);
-    c->flux_ratio = calloc(c->block * n_bands, sizeof(double));
-    c->magnitude = calloc(c->block * n_bands, sizeof(double));
-    c->share_material = calloc(c->block * n_materials, sizeof(double));
-    c->share_component = calloc(c->block * n_components, sizeof(double));
-    if (n_surfaces) c->share_surface = calloc(c->block * n_surfaces, sizeof(double));
-    if (has_earth) c->earthshine = calloc(c->block * n_bands, sizeof(double));
     c->outside = calloc(c->block * (size_t)c->watched.n + 1, sizeof *c->outside);
     c->n_outside = calloc((size_t)c->watched.n + 1, sizeof *c->n_outside);
-    return c->outside && c->n_outside && (c->earthshine || !has_earth) && c->rows && c->chosen &&
-           c->flux_ratio && c->magnitude && c->share_material && c->share_component &&
-           (c->share_surface || !n_surfaces);
+    return c->outside && c->n_outside && c->chosen &&
+           !photometry_rows_make(c->s, c->block, &c->rows, NULL);
 }
 
 static bool asks_for_height(const glint_scenario *s)
@@ -99,6 +96,7 @@ glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint
     c->n_threads = threads > 0 ? threads : omp_get_num_procs();
     if (asks_for_height(scenario)) c->wanted |= GEOMETRY_HEIGHT;
     if (scenario->moon_columns) c->wanted |= GEOMETRY_MOON;
+    if (scenario->has_telescope) c->wanted |= GEOMETRY_RATE;
     glint_error error = {0};
     glint_status status = column_set_make(scenario, &c->columns, &error);
     facts_of_run(scenario, &c->facts);
@@ -123,17 +121,14 @@ void glint_curve_close(glint_curve *c)
     if (!c) return;
     for (int i = 0; c->workers && i < c->n_threads; i++)
         tile_worker_free(&c->workers[i]);
+    for (int i = 0; c->exposures && i < c->n_threads; i++)
+        exposure_worker_free(&c->exposures[i]);
+    free(c->exposures);
     free(c->workers);
     visibility_free(c->plan);
     frame_grid_free(c->grid);
-    free(c->rows);
+    photometry_rows_free(&c->rows);
     free(c->chosen);
-    free(c->flux_ratio);
-    free(c->magnitude);
-    free(c->share_material);
-    free(c->share_component);
-    free(c->share_surface);
-    free(c->earthshine);
     free(c->outside);
     free(c->n_outside);
     coverage_free(&c->watched);
@@ -169,10 +164,11 @@ static glint_status cover_block(glint_curve *c, int64_t first, int64_t n, glint_
 {
     static const double AHEAD_S = 4 * DAY_S;
     if (c->s->has_geometry) return GLINT_OK;
-    const double step_s = c->s->step_s, from_s = (double)first * step_s;
-    const double to_s = (double)(first + n - 1) * step_s;
+    const double step_s = c->s->step_s, half_s = 0.5 * c->s->exposure_s;
+    const double from_s = (double)first * step_s - half_s;
+    const double to_s = (double)(first + n - 1) * step_s + half_s;
     if (c->grid && from_s >= c->grid_from_s && to_s <= c->grid_to_s) return GLINT_OK;
-    const double end_s = (double)(c->s->n_steps - 1) * step_s;
+    const double end_s = (double)(c->s->n_steps - 1) * step_s + half_s;
     double reach_s = from_s + AHEAD_S < end_s ? from_s + AHEAD_S : end_s;
     if (reach_s < to_s) reach_s = to_s;
     const earth_orientation still = {0, 0};
@@ -193,17 +189,21 @@ static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, 
     const glint_status status =
         geometry_fill(s, c->grid, c->wanted, first, n, &w->geometry, &w->tile, w->lights, error);
     if (status) return status;
+    const photometry_rows *all = &c->rows;
     const photometry_rows rows = {
-        .rows = c->rows + at,
-        .flux_ratio = c->flux_ratio + at * s->n_bands,
-        .magnitude = c->magnitude + at * s->n_bands,
-        .share_material = c->share_material + at * m->n_materials,
-        .share_component = c->share_component + at * m->n_components,
-        .share_surface = c->share_surface ? c->share_surface + at * s->satellite.n_surfaces : NULL,
-        .earthshine = c->earthshine ? c->earthshine + at * s->n_bands : NULL};
+        .rows = all->rows + at,
+        .flux_ratio = all->flux_ratio + at * s->n_bands,
+        .magnitude = all->magnitude + at * s->n_bands,
+        .share_material = all->share_material + at * m->n_materials,
+        .share_component = all->share_component + at * m->n_components,
+        .share_surface =
+            all->share_surface ? all->share_surface + at * s->satellite.n_surfaces : NULL,
+        .earthshine = all->earthshine ? all->earthshine + at * s->n_bands : NULL};
     const glint_status summed = tile_worker_sum(s, w, &rows, error);
-    if (!summed && c->watched.n > 0) coverage_mark(&c->watched, w, c->outside + at * c->watched.n);
-    return summed;
+    if (summed) return summed;
+    if (c->watched.n > 0) coverage_mark(&c->watched, w, c->outside + at * c->watched.n);
+    if (!c->exposures) return GLINT_OK;
+    return exposure_average(s, c->grid, w, &c->exposures[w - c->workers], n, &rows, error);
 }
 
 /* All tiles of the block, over the threads; tiles are the same for any number of them. The error of
@@ -250,7 +250,7 @@ static bool is_wanted(const glint_scenario *s, const glint_row *row)
 /* Hands out row k of the block, and counts what was not measured in it. */
 static void choose_row(glint_curve *c, int64_t k, size_t *n)
 {
-    c->chosen[(*n)++] = c->rows[k];
+    c->chosen[(*n)++] = c->rows.rows[k];
     for (int j = 0; j < c->watched.n; j++)
         c->n_outside[j] += c->outside[k * c->watched.n + j];
 }
@@ -272,7 +272,7 @@ glint_status glint_curve_next(glint_curve *c, const glint_row **rows, size_t *n,
             return status;
         }
         for (int64_t k = 0; k < count; k++)
-            if (is_wanted(c->s, &c->rows[k])) choose_row(c, k, n);
+            if (is_wanted(c->s, &c->rows.rows[k])) choose_row(c, k, n);
         c->next += count;
     }
     return GLINT_OK;

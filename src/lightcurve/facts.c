@@ -280,6 +280,29 @@ static void add_bands(const glint_scenario *s, fact_list *out)
     if (!s->has_extinction) add(out, "extinction", "none");
 }
 
+/* What the camera does, and magnitudes at 1000 km. */
+static void add_camera(const glint_scenario *s, fact_list *out)
+{
+    char value[NUMBER_SIZE + 1];
+    value[number_format(s->exposure_s, value)] = '\0';
+    if (s->exposure_s > 0)
+        add(out, "exposure",
+            "light is averaged over %s s, centred on the row's time; angles, ranges and flags (but "
+            "'dark') are those of that time",
+            value);
+    for (int b = 0; s->has_telescope && b < s->n_bands; b++)
+        add(out, "telescope",
+            "%.4g m; %s of magnitude 0 in %s gives %.4g electrons per s; sky %.4g "
+            "mag per square arcsec; %s",
+            s->telescope.aperture_m, "a star above the atmosphere", s->bands[b]->name,
+            s->telescope.electrons_s[b], s->telescope.sky_mag[b],
+            s->telescope.follows ? "it follows the satellite" : "it follows the stars");
+    if (s->standard)
+        add(out, "standard_magnitudes",
+            "at 1000 km, with the phase law of a diffuse (Lambertian) sphere; sunlit_fraction and "
+            "the Sun's distance stay in them");
+}
+
 /* One fact for each law, and what is taken for granted between given attitudes. */
 static void add_attitude(const glint_scenario *s, fact_list *out)
 {
@@ -449,6 +472,7 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
         add(out, "geometry", "directions given in the body frame, the Sun at 1 au");
     else
         add_time(s, out);
+    add_camera(s, out);
     add_measured(s, out);
     add_shadows(s, out);
     add_flicker(s, out);

@@ -184,6 +184,17 @@ static void fill_moon(const glint_scenario *s, const sighting *seen, int k, view
         sky_place(out->who, &seen->frames, unit, &out->moon_azimuth[k], &out->moon_elevation[k]);
 }
 
+/* How fast the satellite moves against the stars, as a site or a satellite sees it; 0 from a fixed
+ * direction. */
+static double angular_rate(const sighting *seen, const scenario_observer *who)
+{
+    double velocity[3];
+    if (who->kind == OBSERVER_DIRECTION) return 0;
+    sub3(seen->moment.v_m_s, seen->observer_v_m_s, velocity);
+    add_scaled3(velocity, -dot3(velocity, seen->sight_gcrs), seen->sight_gcrs, velocity);
+    return norm3(velocity) / seen->range_m;
+}
+
 /* One row of a run with an orbit, but for its angles; seen: with the frames. */
 static glint_status fill_row(const glint_scenario *s, unsigned wanted, double guess_s, int k,
                              geometry_worker *worker, tile_geometry *out, brdf_light *lights,
@@ -204,6 +215,7 @@ static glint_status fill_row(const glint_scenario *s, unsigned wanted, double gu
                    !eclipse_earth_between(seen->observer_gcrs_m, m->r_m, m->itrs_gcrs + 6);
     keep_view(s, seen, k, v->observer, lanes);
     if (wanted & GEOMETRY_MOON) fill_moon(s, seen, k, v, out);
+    out->angular_rate[k] = wanted & GEOMETRY_RATE ? angular_rate(seen, v->observer) : 0;
     if (wanted & GEOMETRY_HEIGHT) {
         double itrs[3], latitude, longitude;
         mat_vec(m->itrs_gcrs, m->r_m, itrs);
@@ -233,6 +245,7 @@ static glint_status fill_given_row(const glint_scenario *s, int64_t row, int k,
     out->sun_radius[k] = asin(SUN_RADIUS_M / AU_M);
     out->seen[k] = true;
     out->moon_covers[k] = false;
+    out->angular_rate[k] = 0;
     out->azimuth[k] = out->elevation[k] = out->sun_elevation[k] = 0;
     const glint_status status =
         turn_components(&s->satellite, &m, body, worker->component_gcrs, NULL, error);

@@ -29,12 +29,14 @@ typedef struct tile_geometry {
     double height_m[TILE];         /* geodetic, of the satellite; only with GEOMETRY_HEIGHT */
     double satellite_m[TILE][3];   /* from the Earth's centre, GCRS; unset in [geometry] runs */
     double sun_distance_m[TILE];   /* from the satellite; likewise */
+    double angular_rate[TILE];     /* against the stars, rad/s, only with GEOMETRY_RATE: good to
+                                      1e-4, under J2 to 2e-3 */
     bool seen[TILE];               /* not below the horizon, not behind the Earth */
     bool any_bright;               /* some lane is seen and sunlit: the sum is needed */
     double sun[TILE][3], observer[TILE][3]; /* unit; GCRS, or body where directions are given */
 } tile_geometry;
 
-enum { GEOMETRY_HEIGHT = 1u, GEOMETRY_MOON = 2u };
+enum { GEOMETRY_HEIGHT = 1u, GEOMETRY_MOON = 2u, GEOMETRY_RATE = 4u };
 
 /* What one thread needs besides: zero-initialise but the arrays and the viewer. */
 typedef struct geometry_worker {

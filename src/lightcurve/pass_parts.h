@@ -43,9 +43,7 @@ glint_status event_list_add(event_list *list, watch *w, glint_event_kind kind, d
 typedef struct light_meter {
     watch *w; /* borrowed */
     tile_worker worker;
-    glint_row *rows; /* owned; TILE */
-    double *numbers; /* owned; what the rows point into */
-    photometry_rows photometry;
+    photometry_rows photometry; /* owned; TILE */
 } light_meter;
 
 /* plan: as of tile_worker_make. light_meter_free ends *out in every case. */

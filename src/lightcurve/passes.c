@@ -173,29 +173,15 @@ static double common_s(const root_list *a, const root_list *b)
 glint_status light_meter_make(watch *w, const visibility *plan, light_meter *out,
                               glint_error *error)
 {
-    const model *m = &w->s->satellite.model;
-    const size_t n_bands = (size_t)w->s->n_bands, n_materials = (size_t)m->n_materials;
     *out = (light_meter){.w = w};
     const glint_status status = tile_worker_make(w->s, plan, &out->worker, error);
-    if (status) return status;
-    out->rows = calloc(TILE, sizeof *out->rows);
-    out->numbers =
-        calloc(TILE * (2 * n_bands + n_materials + (size_t)m->n_components), sizeof(double));
-    if (!out->rows || !out->numbers) return error_no_memory(error);
-    double *magnitude = out->numbers + TILE * n_bands, *material = magnitude + TILE * n_bands;
-    out->photometry = (photometry_rows){.rows = out->rows,
-                                        .flux_ratio = out->numbers,
-                                        .magnitude = magnitude,
-                                        .share_material = material,
-                                        .share_component = material + TILE * n_materials};
-    return GLINT_OK;
+    return status ? status : photometry_rows_make(w->s, TILE, &out->photometry, error);
 }
 
 void light_meter_free(light_meter *meter)
 {
     if (meter->w) tile_worker_free(&meter->worker);
-    free(meter->rows);
-    free(meter->numbers);
+    photometry_rows_free(&meter->photometry);
     *meter = (light_meter){0};
 }
 
@@ -216,8 +202,9 @@ glint_status light_meter_read(light_meter *meter, const double *t_s, int n, doub
     watch *w = meter->w;
     glint_status status = light_meter_aim(meter, t_s, n, error);
     if (!status) status = tile_worker_sum(w->s, &meter->worker, &meter->photometry, error);
+    const glint_row *rows = meter->photometry.rows;
     for (int k = 0; !status && k < n; k++)
-        magnitude[k] = meter->rows[k].flux_ratio[0] > 0 ? meter->rows[k].magnitude[0] : HUGE_VAL;
+        magnitude[k] = rows[k].flux_ratio[0] > 0 ? rows[k].magnitude[0] : HUGE_VAL;
     return status;
 }
 

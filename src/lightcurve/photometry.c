@@ -3,6 +3,7 @@
 #include "base/constants.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 double airmass_kasten_young(double elevation)
@@ -10,6 +11,35 @@ double airmass_kasten_young(double elevation)
     if (elevation < 0) return 0;
     const double deg = elevation / DEG;
     return 1 / (sin(elevation) + 0.50572 * pow(deg + 6.07995, -1.6364));
+}
+
+double airmass_pickering(double elevation)
+{
+    if (elevation < 0) return 0;
+    const double deg = elevation / DEG;
+    return 1 / sin((deg + 244 / (165 + 47 * pow(deg, 1.1))) * DEG);
+}
+
+double airmass_of(const glint_scenario *s, double elevation)
+{
+    return s->airmass == AIRMASS_PICKERING ? airmass_pickering(elevation)
+                                           : airmass_kasten_young(elevation);
+}
+
+/* sin p + (pi - p) cos p without the loss of digits near pi: sin q - q cos q, q = pi - p. */
+static double lambert_sphere(double phase_angle)
+{
+    static const double SMALL = 0.02; /* rad: the third term left out is 2e-13 of the first */
+    const double q = PI - phase_angle, q2 = q * q;
+    if (q < SMALL) return q * q2 / 3 * (1 - q2 / 10 + q2 * q2 / 280);
+    return sin(q) - q * cos(q);
+}
+
+double magnitude_to_standard(double range_m, double phase_angle, double standard_phase)
+{
+    static const double STANDARD_M = 1e6;
+    const double phase = lambert_sphere(phase_angle) / lambert_sphere(standard_phase);
+    return 2.5 * log10(phase) - 5 * log10(range_m / STANDARD_M);
 }
 
 double magnitude_of(double flux_ratio, double sun_magnitude)
@@ -84,6 +114,38 @@ static double source_flux(const lane_light *l, const double *sums, double weight
     return total > 0 ? weight * total : 0;
 }
 
+glint_status photometry_rows_make(const glint_scenario *s, size_t n, photometry_rows *out,
+                                  glint_error *error)
+{
+    const model *m = &s->satellite.model;
+    const size_t n_bands = (size_t)s->n_bands, n_surfaces = (size_t)s->satellite.n_surfaces;
+    *out =
+        (photometry_rows){.rows = calloc(n, sizeof *out->rows),
+                          .flux_ratio = calloc(n * n_bands, sizeof(double)),
+                          .magnitude = calloc(n * n_bands, sizeof(double)),
+                          .share_material = calloc(n * (size_t)m->n_materials, sizeof(double)),
+                          .share_component = calloc(n * (size_t)m->n_components, sizeof(double))};
+    if (n_surfaces) out->share_surface = calloc(n * n_surfaces, sizeof(double));
+    if (s->earth.wanted) out->earthshine = calloc(n * n_bands, sizeof(double));
+    if (out->rows && out->flux_ratio && out->magnitude && out->share_material &&
+        out->share_component && (out->share_surface || !n_surfaces) &&
+        (out->earthshine || !s->earth.wanted))
+        return GLINT_OK;
+    return error_no_memory(error);
+}
+
+void photometry_rows_free(photometry_rows *rows)
+{
+    free(rows->rows);
+    free(rows->flux_ratio);
+    free(rows->magnitude);
+    free(rows->share_material);
+    free(rows->share_component);
+    free(rows->share_surface);
+    free(rows->earthshine);
+    *rows = (photometry_rows){0};
+}
+
 static unsigned flags_of(const glint_scenario *s, const tile_geometry *g, int k, bool bright)
 {
     const bool at_site = g->who && g->who->kind == OBSERVER_SITE;
@@ -110,6 +172,9 @@ static void fill_place(const glint_scenario *s, const tile_geometry *g, int k, g
                        .elevation_rad = g->elevation[k],
                        .sun_elevation_rad = g->sun_elevation[k],
                        .height_m = g->height_m[k],
+                       .angular_rate_rad_s = g->angular_rate[k],
+                       .site_height_m =
+                           g->who && g->who->kind == OBSERVER_SITE ? g->who->site.height_m : 0,
                        .has_site = g->who && g->who->kind == OBSERVER_SITE,
                        .observer = g->who ? g->who->name : ""};
     if (!s->has_geometry) run_clock_utc(&s->clock, g->t_s[k], &out->utc);
@@ -131,7 +196,7 @@ void photometry_fill(const glint_scenario *s, const tile_geometry *g, const doub
         double *magnitude = out->magnitude + row * (size_t)s->n_bands;
         const row_shares shares = start_shares(&s->satellite, out, row);
         double *earthshine = out->earthshine ? out->earthshine + row * (size_t)s->n_bands : NULL;
-        const double airmass = at_site ? airmass_kasten_young(g->elevation[k]) : 0;
+        const double airmass = at_site ? airmass_of(s, g->elevation[k]) : 0;
         const double square = g->range_m[k] * g->range_m[k];
         const lane_light light = {.m = m,
                                   .sun = g->seen[k] && g->sun_weight[k] > 0 ? sun : NULL,

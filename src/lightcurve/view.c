@@ -157,17 +157,8 @@ static glint_status fill_moment(looker *l, glint_error *error)
 static glint_status find_row(looker *l, glint_row *out, glint_error *error)
 {
     const glint_scenario *s = l->view->s;
-    const size_t n = TILE;
-    photometry_rows rows = {
-        .rows = calloc(n, sizeof *rows.rows),
-        .flux_ratio = calloc(n * (size_t)s->n_bands, sizeof(double)),
-        .magnitude = calloc(n * (size_t)s->n_bands, sizeof(double)),
-        .share_material = calloc(n * (size_t)s->satellite.n_materials, sizeof(double)),
-        .share_component = calloc(n * (size_t)s->satellite.n_components, sizeof(double))};
-    glint_status status = GLINT_OK;
-    if (!rows.rows || !rows.flux_ratio || !rows.magnitude || !rows.share_material ||
-        !rows.share_component)
-        status = error_no_memory(error);
+    photometry_rows rows;
+    glint_status status = photometry_rows_make(s, TILE, &rows, error);
     if (!status) status = tile_worker_sum(s, &l->worker, &rows, error);
     if (!status) {
         glint_view_scene *scene = &l->view->scene;
@@ -175,11 +166,7 @@ static glint_status find_row(looker *l, glint_row *out, glint_error *error)
         scene->has_magnitude = rows.flux_ratio[0] > 0;
         scene->magnitude = rows.magnitude[0];
     }
-    free(rows.rows);
-    free(rows.flux_ratio);
-    free(rows.magnitude);
-    free(rows.share_material);
-    free(rows.share_component);
+    photometry_rows_free(&rows);
     return status;
 }
 

@@ -134,6 +134,8 @@ static void read_time(reading *rd, reader *root)
 {
     static const param_info STEP = {"step_s",       "s",           "time between rows", 0, 1e9,
                                     PARAM_REQUIRED, PARAM_MIN_OPEN};
+    static const param_info EXPOSURE = {
+        "exposure_s", "s", "light is averaged over it", 0, 86400, 0, 0};
     static const param_info DURATION = {"duration_s", "s", "length of the run", 0, 4.1e9, 0, 0};
     const toml_node *table = reader_table(root, "time", true);
     if (!table) return;
@@ -145,6 +147,7 @@ static void read_time(reading *rd, reader *root)
     const bool has_end = reader_time(&r, "end", false, &end);
     const bool has_duration = reader_param(&r, &DURATION, &span_s);
     const bool has_step = reader_param(&r, &STEP, &s->step_s);
+    reader_param(&r, &EXPOSURE, &s->exposure_s);
     if (reader_has(&r, "end") && reader_has(&r, "duration_s"))
         reader_fail(&r, reader_place(&r, "duration_s"),
                     "both 'end' and 'duration_s' are given; expected one of them");
@@ -272,15 +275,8 @@ static void read_extinction(reading *rd, reader *r)
                     EXPECTED);
         return;
     }
-    reader table = reader_start(node, "extinction", rd->errors);
-    for (size_t k = 0; band_at(k); k++)
-        reader_has(&table,
-                   band_at(k)->name); /* bands that this run does not ask for may stand there */
-    for (int b = 0; b < s->n_bands; b++) {
-        const param_info k = {s->bands[b]->name, "mag per airmass", "", 0, 10, PARAM_REQUIRED, 0};
-        reader_param(&table, &k, &s->extinction[b]);
-    }
-    reading_done(rd, &table);
+    static const param_info EACH = {"extinction", "mag per airmass", "", 0, 10, PARAM_REQUIRED, 0};
+    read_band_table(rd, r, node, &EACH, s->extinction);
 }
 
 static void add_band(reading *rd, reader *r, const toml_node *node, const char *system)
@@ -353,13 +349,16 @@ static void refuse_extinction(reader *r)
 static void read_photometry(reading *rd, reader *root)
 {
     static const char *const DISCS[] = {"uniform", "limb-darkened", "point"}; /* as the enum */
+    static const char *const AIRMASSES[] = {"kasten-young", "pickering"};     /* as the enum */
     static const toml_node NOTHING = {.type = TOML_TABLE};
     const toml_node *table = reader_table(root, "photometry", false);
     reader r = reader_start(table ? table : &NOTHING, "[photometry]", rd->errors);
-    int disc;
+    int disc, airmass;
     read_bands(rd, &r);
     reader_choice(&r, "solar_disc", DISCS, 3, 0, &disc);
     rd->s->solar_disc = (solar_disc_choice)disc;
+    reader_choice(&r, "airmass", AIRMASSES, 2, 0, &airmass);
+    rd->s->airmass = (airmass_choice)airmass;
     read_earthshine(rd, &r);
     if (rd->s->has_geometry)
         refuse_extinction(&r);
@@ -414,6 +413,7 @@ static void read_output(reading *rd, reader *root)
 {
     static const char *const ROWS[] = {"all", "visible", "dark-site"};
     static const char *const SHARES[] = {"none", "material", "component", "both"};
+    static const char *const STANDARDS[] = {"none", "phase90", "phase0", "both"};
     static const param_info SUN = {
         "sun_elevation_max_deg", "deg", "a dark site has the Sun below", -90, 90, -6, 0};
     glint_scenario *s = rd->s;
@@ -423,14 +423,16 @@ static void read_output(reading *rd, reader *root)
     const toml_node *table = reader_table(root, "output", false);
     if (!table) return;
     reader r = reader_start(table, "[output]", rd->errors);
-    int rows, shares;
+    int rows, shares, standard;
     double sun_deg;
     reader_choice(&r, "rows", ROWS, 3, 0, &rows);
     reader_choice(&r, "shares", SHARES, 4, 1, &shares);
+    reader_choice(&r, "standard_magnitudes", STANDARDS, 4, 0, &standard);
     reader_param(&r, &SUN, &sun_deg);
     reader_boolean(&r, "moon", false, &s->moon_columns);
     s->rows = (rows_choice)rows;
-    s->shares = (unsigned)shares; /* 1 material, 2 component, 3 both */
+    s->shares = (unsigned)shares;     /* 1 material, 2 component, 3 both */
+    s->standard = (unsigned)standard; /* 1 at 90 deg, 2 at 0 deg, 3 both */
     s->sun_elevation_max = sun_deg * DEG;
     if (s->has_geometry && s->rows != ROWS_ALL)
         reader_fail(&r, reader_place(&r, "rows"),
@@ -518,6 +520,7 @@ static void read_all(reading *rd, toml_document *document)
         if (s->has_attitude) read_attitude(rd, &root);
         check_body_directions(rd);
     }
+    read_telescope(rd, &root);
     read_output(rd, &root);
     s->has_satellite = !rd->orbit_only || names_satellite(&root);
     if (s->has_satellite) read_satellite(rd, &root);

@@ -57,6 +57,11 @@ void change_satellite(reading *rd, facet_list *facets);
 void read_earthshine(reading *rd, reader *photometry);
 void make_earthshine(reading *rd);
 void earth_light_free(earth_light *earth, int n_bands);
+/* A table of one number for each of the scenario's bands; those of other bands may stand there.
+ * value: its unit and range; out: n_bands. Errors go to the list and mark r as failed. */
+void read_band_table(reading *rd, reader *r, const toml_node *node, const param_info *value,
+                     double *out);
+void read_telescope(reading *rd, reader *root);
 void read_expectations(reading *rd, reader *root);
 /* [observed], and the file that it names. After the time. */
 void read_observed(reading *rd, reader *root);

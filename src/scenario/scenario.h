@@ -131,6 +131,24 @@ typedef struct earth_light {
     globe *source; /* owned; NULL where it is not wanted, or there is no satellite */
 } earth_light;
 
+/* How the airmass follows from the elevation. */
+typedef enum airmass_choice { AIRMASS_KASTEN_YOUNG, AIRMASS_PICKERING } airmass_choice;
+
+/* Magnitudes at 1000 km: columns that are asked for. */
+enum { STANDARD_PHASE_90 = 1u, STANDARD_PHASE_0 = 2u };
+
+/* A telescope with a camera. */
+typedef struct telescope {
+    double aperture_m;                      /* diameter */
+    double electrons_s[SCENARIO_MAX_BANDS]; /* from a star of magnitude 0, above the atmosphere */
+    double sky_mag[SCENARIO_MAX_BANDS];     /* per square arcsec */
+    double pixel_rad, seeing_fwhm_rad;
+    double half_width_rad; /* of the box in which light is summed, beside and beyond the trail */
+    double read_noise_e, dark_current_e_s; /* per pixel */
+    double scintillation;                  /* coefficient of Young's formula, m^(2/3) s^(1/2) */
+    bool follows;                          /* the satellite, so that it leaves no trail */
+} telescope;
+
 typedef enum rows_choice { ROWS_ALL, ROWS_VISIBLE, ROWS_DARK_SITE } rows_choice;
 
 enum { SHARES_MATERIAL = 1u, SHARES_COMPONENT = 2u };
@@ -228,6 +246,7 @@ struct glint_scenario {
     double span_s; /* from start to end, TT */
     double step_s;
     int64_t n_steps;
+    double exposure_s; /* light is averaged over it, centred on a row's time; 0: a sample */
 
     scenario_observer *observers; /* owned; in the order of the file */
     int n_observers;              /* 0 only where directions are given */
@@ -250,6 +269,9 @@ struct glint_scenario {
     earth_light earth;
     bool has_extinction;
     double extinction[SCENARIO_MAX_BANDS]; /* mag per airmass; 0 without */
+    airmass_choice airmass;
+    bool has_telescope;
+    telescope telescope;
 
     bool light_time, aberration;
     double dut1_s;
@@ -261,6 +283,7 @@ struct glint_scenario {
     bool moon_columns;
     double sun_elevation_max; /* rad; of a dark site */
     unsigned shares;
+    unsigned standard; /* STANDARD_... */
 
     expectation *expectations; /* owned */
     int n_expectations;
