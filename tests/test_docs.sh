@@ -216,7 +216,7 @@ known_keys() {
 described() {
     local title=$1 base=$2 setting key all=' ' keys
     shift 2
-    { section "$title"; section 'Known keys that are not built yet'; } >"$place/section"
+    section "$title" >"$place/section"
     [ -n "$(section "$title")" ] || fail "$book" "there is no section: $title"
     for setting; do
         checks=$((checks + 1))
@@ -237,7 +237,7 @@ described() {
 words() {
     local title=$1 base=$2 key word
     shift 2
-    { section "$title"; section 'Known keys that are not built yet'; } >"$place/section"
+    section "$title" >"$place/section"
     for key; do
         checks=$((checks + 1))
         local found=0

@@ -303,10 +303,3 @@ const toml_node *reader_tables(reader *r, const char *key)
         }
     return node->n_children ? node : NULL;
 }
-
-void reader_refuse(reader *r, const char *key, const char *why)
-{
-    if (!toml_child(r->table, key)) return; /* not among the keys that messages list */
-    const toml_node *node = reader_find(r, key);
-    reader_fail(r, node->key_where, "'%s' in %s is not built yet: %s", key, r->name, why);
-}

@@ -65,8 +65,5 @@ const toml_node *reader_tables(reader *r, const char *key);
 /* For single nodes: n finite numbers; what: "size_m", for messages. */
 bool node_vector(const toml_node *node, const char *what, int n, double *out, reader *r);
 bool node_number(const toml_node *node, const char *what, double *out, reader *r);
-/* A key that is known but whose feature is not there yet: an error that says so when it is given.
- */
-void reader_refuse(reader *r, const char *key, const char *why);
 
 #endif
