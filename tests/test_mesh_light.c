@@ -372,12 +372,12 @@ START_TEST(test_tile_threads_share_a_stated_work_space)
 {
     glint_error error;
     int n = 0;
-    ck_assert_int_eq(tile_fit_threads(1000, 1024, &n, &error), GLINT_OK);
+    ck_assert_int_eq(tile_fit_threads(1000, false, 1024, &n, &error), GLINT_OK);
     ck_assert_int_eq(n, 1024);
     /* a facet takes TILE doubles, and what the two views need of it */
-    ck_assert_int_eq(tile_fit_threads(2000000, 1024, &n, &error), GLINT_OK);
+    ck_assert_int_eq(tile_fit_threads(2000000, false, 1024, &n, &error), GLINT_OK);
     ck_assert(n >= 1 && n * 2e6 * TILE * 8 < TILE_MOST_SHADOW_BYTES);
-    ck_assert_int_eq(tile_fit_threads(20000000, 8, &n, &error), GLINT_INPUT);
+    ck_assert_int_eq(tile_fit_threads(20000000, false, 8, &n, &error), GLINT_INPUT);
     ck_assert_ptr_nonnull(strstr(error.message, "20000000 facets"));
     ck_assert_ptr_nonnull(strstr(error.message, "self_shadows = \"none\""));
 }

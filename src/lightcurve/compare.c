@@ -13,21 +13,13 @@ struct glint_comparison {
 
 /* ------------------------------------------------------------- predictions */
 
-/* Phase function of a sphere with Lambert's law, 1 at 90 deg (physics page, section 9). */
-static double lambert_sphere(double phase)
-{
-    static const double LEAST = 1e-12; /* against the Sun nothing is left of it */
-    return fmax(sin(phase) + (PI - phase) * cos(phase), LEAST);
-}
-
 /* What a predicted apparent magnitude is as one of the observed kind. */
 static double reduce(observed_kind kind, double magnitude, double range_m, double phase)
 {
-    static const double STANDARD_M = 1e6; /* 1000 km */
-    if (kind == OBSERVED_APPARENT) return magnitude;
-    const double at_1000_km = magnitude - 5 * log10(range_m / STANDARD_M);
-    if (kind == OBSERVED_AT_1000_KM) return at_1000_km;
-    return at_1000_km + 2.5 * log10(lambert_sphere(phase));
+    /* An observation at 1000 km keeps its phase. */
+    const double standard = kind == OBSERVED_AT_1000_KM ? phase : 0.5 * PI;
+    return kind == OBSERVED_APPARENT ? magnitude
+                                     : magnitude + magnitude_to_standard(range_m, phase, standard);
 }
 
 static void fill(const glint_scenario *s, const observed_row *from, const glint_row *row,

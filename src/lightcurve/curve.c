@@ -104,8 +104,8 @@ glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint
     if (!status)
         status = coverage_make(&scenario->satellite, scenario->n_bands, &c->watched, &error);
     if (!status && c->plan)
-        status = tile_fit_threads(scenario->satellite.model.n_facets, c->n_threads, &c->n_threads,
-                                  &error);
+        status = tile_fit_threads(scenario->satellite.model.n_facets, scenario->earth.wanted,
+                                  c->n_threads, &c->n_threads, &error);
     if (!status && (c->facts.failed || !make_workers(c) || !make_rows(c)))
         status = error_no_memory(&error);
     if (status) {

@@ -257,12 +257,16 @@ static void replace_row(const exposure *x, double *sums, int k, const photometry
     double *material = rows->share_material + k * m->n_materials;
     double *component = rows->share_component + k * m->n_components;
     bool bright = false;
+    /* Centred just below the horizon, what light there is came through the air at the horizon. */
+    const double airmass = row->flags & GLINT_BELOW_HORIZON && row->elevation_rad < 0
+                               ? airmass_of(s, 0)
+                               : row->airmass;
     for (int b = 0; b < s->n_bands; b++) {
         flux[b] = sums[b] / s->exposure_s;
         bright = bright || flux[b] > 0;
-        magnitude[b] = flux[b] > 0 ? magnitude_of(flux[b], s->sun_magnitude[b]) +
-                                         s->extinction[b] * row->airmass
-                                   : 0;
+        magnitude[b] = flux[b] > 0
+                           ? magnitude_of(flux[b], s->sun_magnitude[b]) + s->extinction[b] * airmass
+                           : 0;
     }
     for (int i = 0; i < m->n_materials; i++)
         material[i] = sums[0] > 0 ? sums[s->n_bands + i] / sums[0] : 0;

@@ -29,12 +29,14 @@ glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_
     return status;
 }
 
-glint_status tile_fit_threads(int n_facets, int wanted, int *n_threads, glint_error *error)
+glint_status tile_fit_threads(int n_facets, bool has_earth, int wanted, int *n_threads,
+                              glint_error *error)
 {
     /* What visibility_scratch_make takes for a facet, bytes: its corners and its bounds as the Sun
      * and as the observer see them; rather too much. */
     static const double VIEWS = 768;
-    const double bytes = n_facets * (TILE * sizeof(double) + VIEWS);
+    const double fractions = (has_earth ? 3 : 1) * TILE * sizeof(double),
+                 bytes = n_facets * (fractions + VIEWS);
     if (bytes > TILE_MOST_SHADOW_BYTES)
         return error_set(error, GLINT_INPUT, PLACE_NONE,
                          "the shadows of %d facets take %.1f GB of work space; expected at most "

@@ -26,7 +26,8 @@ glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_
 
 /* How many of `wanted` (1 or more) threads have room for the shadows of n_facets facets in
  * TILE_MOST_SHADOW_BYTES. Errors: GLINT_INPUT when not even one has. */
-glint_status tile_fit_threads(int n_facets, int wanted, int *n_threads, glint_error *error);
+glint_status tile_fit_threads(int n_facets, bool has_earth, int wanted, int *n_threads,
+                              glint_error *error);
 
 /* plan: of tile_plan_shadows, must outlive the worker. Errors: GLINT_INTERNAL (memory);
  * tile_worker_free ends *out in every case. */
