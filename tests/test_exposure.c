@@ -258,6 +258,32 @@ START_TEST(test_exposure_light_from_before_the_horizon_counts)
 }
 END_TEST
 
+/* Its time lies 0.09 deg below the horizon, its light above: the air is that at the horizon, which
+ * Kasten and Young's formula has at 1/(0.50572 x 6.07995^-1.6364). */
+START_TEST(test_exposure_centred_below_the_horizon_is_dimmed_as_at_the_horizon)
+{
+    static const char *const SETTINGS[] = {"", "extinction = { V = 0.2 }\n"};
+    const char *parts[N_PARTS];
+    double magnitude[2];
+    memcpy(parts, SOUND, sizeof parts);
+    parts[PART_ORBIT] = "[orbit]\ncircular = { height_km = 780, inclination_deg = 98.6, "
+                        "raan_deg = 80, argument_of_latitude_deg = 132, "
+                        "epoch = 2025-07-25T20:37:00Z }\n";
+    parts[PART_TIME] = "[time]\nstart = 2025-07-25T20:29:13Z\nduration_s = 0\nstep_s = 1\n"
+                       "exposure_s = 8\n";
+    for (int k = 0; k < 2; k++) {
+        char text[64];
+        snprintf(text, sizeof text, "[photometry]\n%s", SETTINGS[k]);
+        run_rows rows = run_with(parts, PART_SETTINGS, text);
+        ck_assert(rows.rows[0].flags & GLINT_BELOW_HORIZON && rows.rows[0].flux_ratio[0] > 0);
+        magnitude[k] = rows.rows[0].magnitude[0];
+        rows_free(&rows);
+    }
+    const double airmass = 1 / (0.50572 * pow(6.07995, -1.6364));
+    assert_near(magnitude[1] - magnitude[0], 0.2 * airmass, 1e-9);
+}
+END_TEST
+
 START_TEST(test_exposure_of_a_satellite_that_turns_too_fast_is_an_error)
 {
     const char *parts[N_PARTS];
@@ -294,6 +320,7 @@ int main(void)
     tcase_add_test(all, test_exposure_two_halves_are_the_whole);
     tcase_add_test(all, test_exposure_threads_give_the_same_bits);
     tcase_add_test(all, test_exposure_light_from_before_the_horizon_counts);
+    tcase_add_test(all, test_exposure_centred_below_the_horizon_is_dimmed_as_at_the_horizon);
     tcase_add_test(all, test_exposure_of_a_satellite_that_turns_too_fast_is_an_error);
     suite_add_tcase(suite, all);
     return run_suite(suite);
