@@ -1,4 +1,5 @@
 /* curved_tile.c: the light of curved facets in one tile. */
+#include "base/gauss.h"
 #include "base/vec.h"
 #include "facets/batch.h"
 #include "facets/curved.h"
@@ -149,14 +150,10 @@ static void turn_back(const curved_piece *p, double u, const double v[3], double
 /* Integrates over the angle from 2 atan(lo) to 2 atan(hi) with Gauss's five points. */
 static void push_arc(const scene *s, const curved_piece *p, double lo, double hi)
 {
-    static const double POINT[5] = {-0.9061798459386640, -0.5384693101056831, 0.0,
-                                    0.5384693101056831, 0.9061798459386640};
-    static const double WEIGHT[5] = {0.1184634425280945, 0.2393143352496832, 0.2844444444444444,
-                                     0.2393143352496832, 0.1184634425280945};
     const double whole = 4.0 * atan(p->end);
     for (int k = 0; k < 5; k++) {
-        const double u = 0.5 * (lo + hi) + 0.5 * POINT[k] * (hi - lo);
-        const double part = WEIGHT[k] * (hi - lo) * 2.0 / (1.0 + u * u) / whole;
+        const double u = 0.5 * (lo + hi) + 0.5 * GAUSS5[k] * (hi - lo);
+        const double part = GAUSS5_WEIGHT[k] * (hi - lo) * 2.0 / (1.0 + u * u) / whole;
         double i[3], r[3];
         turn_back(p, u, s->i, i);
         turn_back(p, u, s->r, r);

@@ -1,6 +1,7 @@
 #include "facets/solar_disc.h"
 
 #include "base/constants.h"
+#include "base/gauss.h"
 #include "base/vec.h"
 #include "brdf/sharpness.h"
 #include "facets/lanes.h"
@@ -104,12 +105,6 @@ static const double GAUSS4[4] = {0.06943184420297371, 0.33000947820757187, 0.669
                                  0.9305681557970263};
 static const double WEIGHT4[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
                                   0.17392742256872693};
-/* Gauss's five points on -1..1 and their weights over 2. */
-static const double GAUSS5[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
-                                 0.9061798459386640};
-static const double WEIGHT5[5] = {0.1184634425280945, 0.2393143352496832, 0.2844444444444444,
-                                  0.2393143352496832, 0.1184634425280945};
-
 /* Gauss's two and three points on 0..1 and their weights. */
 static const double GAUSS2[2] = {0.21132486540518713, 0.7886751345948129};
 static const double WEIGHT2[2] = {0.5, 0.5};
@@ -328,7 +323,7 @@ static void fill_rule(const panels *line, double c, line_rule *out)
         for (int part = 0; part < parts; part++)
             for (int g = 0; g < 5; g++) {
                 out->angle[out->n] = from + length * (part + 0.5 + 0.5 * GAUSS5[g]) / parts;
-                out->weight[out->n++] = WEIGHT5[g] * length / parts;
+                out->weight[out->n++] = GAUSS5_WEIGHT[g] * length / parts;
             }
     }
 }

@@ -1,6 +1,7 @@
 #include "orbit/eclipse.h"
 
 #include "base/constants.h"
+#include "base/gauss.h"
 #include "base/vec.h"
 #include "orbit/moon.h"
 
@@ -120,10 +121,6 @@ double eclipse_disc_fraction(double a, double b, double d)
  * f bends where a disc comes to touch the other one's rim: there the integral is parted. */
 double eclipse_disc_light(double a, double b, double d, double limb_darkening)
 {
-    static const double POINT[5] = {-0.9061798459386640, -0.5384693101056831, 0.0,
-                                    0.5384693101056831, 0.9061798459386640}; /* Gauss */
-    static const double WEIGHT[5] = {0.1184634425280945, 0.2393143352496832, 0.2844444444444444,
-                                     0.2393143352496832, 0.1184634425280945}; /* over 2 */
     const double whole = eclipse_disc_fraction(a, b, d), u = limb_darkening;
     if (u == 0.0 || whole == 1.0 || whole == 0.0 || !(a > 0.0)) return whole;
     enum { PARTS = 4 };
@@ -133,9 +130,9 @@ double eclipse_disc_light(double a, double b, double d, double limb_darkening)
         const double from = side ? touch : 0.0, length = (side ? 0.5 * PI - touch : touch) / PARTS;
         for (int k = 0; k < PARTS; k++)
             for (int g = 0; g < 5; g++) {
-                const double sine = sin(from + length * (k + 0.5 + 0.5 * POINT[g]));
-                integral +=
-                    WEIGHT[g] * length * sine * sine * sine * eclipse_disc_fraction(a * sine, b, d);
+                const double sine = sin(from + length * (k + 0.5 + 0.5 * GAUSS5[g]));
+                integral += GAUSS5_WEIGHT[g] * length * sine * sine * sine *
+                            eclipse_disc_fraction(a * sine, b, d);
             }
     }
     return fmin(1.0, ((1.0 - u) * whole + u * integral) / (1.0 - u / 3.0));
