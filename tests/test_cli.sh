@@ -393,6 +393,17 @@ empty "$err"
 holds 'nothing that could be shadowed' grep -q '^shadows     none computed; 0 of 1 facets' "$out"
 t 'check of what shadows what' 0 check "$source/scenarios/models/box-wing.toml"
 has "$out" '6 of 10 facets can be shadowed' 'shadow of wing-north' '1 of 6 facets of bus'
+t 'check of an observed track' 0 check "$source/scenarios/compare-vienna.toml"
+has "$out" 'observed    53 observations of' '(csv), magnitudes apparent, band V, by Vienna; a zero point' \
+    'from 2025-07-24T19:10:00Z to 2025-07-24T19:16:19Z'
+holds 'one line for the attitude' [ "$(grep -c '^attitude' "$out")" = 1 ]
+holds 'no blanks at ends of lines' [ "$(grep -c ' $' "$out")" = 0 ]
+holds 'paths without a way back' [ "$(grep -c '/\.\./materials' "$err")" = 0 ]
+t 'check with no TOML in --set' 1 check plate.toml --set materials.white.rho=half
+has "$err" 'syntax error' 'the value must be TOML'
+t 'check with a value that cannot be in --set' 1 check plate.toml --set materials.white.rho=nan
+has "$err" 'expected a finite number'
+lacks "$err" 'must be TOML'
 t 'check goes on after a wrong file' 1 check broken.toml plate.toml absent.toml
 has "$out" plate.toml
 has "$err" broken.toml:1:1: absent.toml

@@ -446,6 +446,42 @@ START_TEST(test_compare_score_reports)
 }
 END_TEST
 
+/* What is left of a report by somebody who needs little. */
+START_TEST(test_compare_score_report_with_few_columns)
+{
+    write_file("report.csv", "observation_time_utc,apparent_magnitude\n"
+                             "2025-07-25T20:37:10.000Z,5.5\n");
+    compared c = compare("[observed]\nfile = \"report.csv\"\nformat = \"score\"\n");
+    ck_assert_int_eq(c.total.compared, 1);
+    ck_assert_int_eq(c.total.with_sigma, 0);
+    ck_assert_int_eq(c.total.with_range, 0);
+    end(&c);
+}
+END_TEST
+
+/* A track of which nothing is left says why. */
+START_TEST(test_compare_track_without_a_row_that_counts_is_warned_of)
+{
+    write_file("track.csv", "utc,magnitude,filter\n2025-07-24T20:37:10Z,5.5,V\n"
+                            "2025-07-26T20:37:11.5Z,5.5,V\n2025-07-25T20:37:10Z,5.5,Clear\n"
+                            "2025-07-25T20:37:10Z,,V\n");
+    glint_scenario *s;
+    glint_errors *errors = glint_errors_new();
+    const char *path = write_scenario("[observed]\nfile = \"track.csv\"\nfilter = \"v\"\n");
+    ck_assert_int_eq(glint_scenario_read(path, NULL, 0, &s, errors), GLINT_OK);
+    ck_assert_uint_eq(glint_errors_count(errors), 1);
+    const char *said = glint_errors_get(errors, 0)->message;
+    ck_assert_int_eq(glint_errors_get(errors, 0)->severity, GLINT_WARNING);
+    ck_assert_msg(strstr(said, "2 lie outside of [time], from 2025-07-24T20:37:10.000000Z to "
+                               "2025-07-26T20:37:11.500000Z UTC") &&
+                      strstr(said, "1 have another filter, as 'Clear'") &&
+                      strstr(said, "1 have no magnitude"),
+                  "%s", said);
+    glint_scenario_free(s);
+    glint_errors_free(errors);
+}
+END_TEST
+
 /* ------------------------------------------------------------------- errors */
 
 /* Reads a scenario that must be refused for its track, at that place of the file. */
@@ -490,6 +526,9 @@ START_TEST(test_compare_wrong_tracks_are_refused_at_their_place)
     for (size_t k = 0; k < COUNT_OF(csv); k++)
         assert_track_refused(CSV, csv[k].track, csv[k].line, csv[k].column, csv[k].said);
     static const char MMT[] = "[observed]\nfile = \"track.csv\"\nformat = \"mmt\"\n";
+    static const char SCORE[] = "[observed]\nfile = \"track.csv\"\nformat = \"score\"\n";
+    assert_track_refused(SCORE, "utc,apparent_magnitude\n2025-07-25T20:37:00Z,9\n", 1, 1,
+                         "no column 'observation_time_utc'; expected the columns of SCORE");
     static const char row[] = "2025-07-25 20:37:00 5 6 Clear 0 900 80 3\n";
     char track[512];
     snprintf(track, sizeof track, "%s2025-07-25 20:37:00 5 6 Clear 0 900 80\n", row);
@@ -589,6 +628,8 @@ int main(void)
     tcase_add_checked_fixture(files, folder_make, folder_remove);
     tcase_add_test(files, test_compare_mmt_tracks);
     tcase_add_test(files, test_compare_score_reports);
+    tcase_add_test(files, test_compare_score_report_with_few_columns);
+    tcase_add_test(files, test_compare_track_without_a_row_that_counts_is_warned_of);
     tcase_add_test(files, test_compare_wrong_tracks_are_refused_at_their_place);
     tcase_add_test(files, test_compare_wrong_keys_are_refused);
     tcase_add_test(files, test_compare_cut_tracks_give_whole_rows_only);

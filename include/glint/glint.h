@@ -532,6 +532,8 @@ glint_status glint_check(const char *path, const char *const *overrides, size_t 
 typedef struct glint_verdict {
     int64_t expectations; /* values and requirements compared */
     int64_t deviations;   /* of these, not met */
+    char *requirements;   /* for each [[require]] that selects rows a line that says how it fares and
+                             with what margin; NULL without; free it with glint_free */
 } glint_verdict;
 
 /* Runs a scenario and holds it against its [[expect]], [expect_table] and [[require]]. Every

@@ -225,7 +225,6 @@ static void compare_places(glint_comparison *c)
 
 static void start_total(const glint_scenario *s, glint_comparison_summary *t)
 {
-    static const char *const KINDS[] = {"apparent", "at-1000-km", "at-1000-km-90-deg"};
     const observed_track *o = &s->observed;
     *t = (glint_comparison_summary){.observations = (int64_t)o->n + o->outside_time +
                                                     o->other_filter + o->without_magnitude,
@@ -234,7 +233,7 @@ static void start_total(const glint_scenario *s, glint_comparison_summary *t)
                                     .without_magnitude = o->without_magnitude,
                                     .fitted = o->fit_zero_point,
                                     .band = s->bands[o->band]->name,
-                                    .kind = KINDS[o->kind],
+                                    .kind = observed_kind_names[o->kind],
                                     .format = o->format,
                                     .file = o->path};
 }
