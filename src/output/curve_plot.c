@@ -115,24 +115,10 @@ void curve_plot_free(curve_plot *p)
     free(p);
 }
 
-/* Days from 1 January 1970 to a date of the Gregorian calendar. Years are counted from March, so
- * that the day that some of them have more is the last; 146097 days make 400 years. */
-static int64_t days_of(int year, int month, int day)
-{
-    const int64_t y = month > 2 ? year : year - 1, m = (month + 9) % 12; /* March is 0 */
-    const int64_t from_march = 365 * y + y / 4 - y / 100 + y / 400 + (153 * m + 2) / 5 + day - 1;
-    return from_march - 719468; /* those before 1970 */
-}
-
 static spot spot_of(const curve_plot *p, const glint_row *row)
 {
     static const double DEG = 57.295779513082321; /* per rad */
-    const glint_utc *u = &row->utc;
-    const double phase_deg = row->phase_angle_rad * DEG;
-    if (!p->has_utc) return (spot){row->t_s, phase_deg};
-    const double day_s = 86400.0 * (double)days_of(u->year, u->month, u->day);
-    return (spot){day_s + 3600.0 * u->hour + 60.0 * u->minute + u->second + 1e-6 * u->microsecond,
-                  phase_deg};
+    return (spot){p->has_utc ? plot_utc_s(&row->utc) : row->t_s, row->phase_angle_rad * DEG};
 }
 
 static void add_magnitude(extremes *e, spot at, double mag)
@@ -312,26 +298,14 @@ static void write_axis(const curve_plot *p, text *t)
 {
     double from, to;
     find_range(p, &from, &to);
-    const double room = from < to ? 0 : width_of_stretch(p), span = to - from;
-    text_printf(t, "first = %.6f\nlast = %.6f\nset xrange [first:last]\n", from - room, to + room);
-    if (!p->has_utc) {
-        text_printf(t, "bottom = '%s'\nmarks = '%%g'\n",
-                    is_over_phase(p) ? "phase angle (deg)" : "t_s (s)");
+    const double room = from < to ? 0 : width_of_stretch(p);
+    if (p->has_utc) {
+        plot_time_axis(from - room, to + room, t);
         return;
     }
-    const double MINUTE = 60, DAY = 86400; /* s */
-    const char *marks = span < 0.2 * MINUTE ? "%H:%M:%.1S"
-                        : span < 5 * MINUTE ? "%H:%M:%S"
-                        : span < DAY        ? "%H:%M"
-                        : span < 8 * DAY    ? "%H:%M\\n%d %b"
-                        : span < 600 * DAY  ? "%d %b"
-                                            : "%b %Y";
-    text_printf(t,
-                "set xdata time\nset timefmt '%%s'\nmarks = \"%s\"\n"
-                "day = '%%d %%b %%Y'\nbottom = 'UTC, ' . strftime(day, first)\n"
-                "if (strftime(day, last) ne strftime(day, first)) {\n"
-                "    bottom = bottom . ' to ' . strftime(day, last)\n}\n",
-                marks);
+    text_printf(t, "first = %.6f\nlast = %.6f\nset xrange [first:last]\n", from - room, to + room);
+    text_printf(t, "bottom = '%s'\nmarks = '%%g'\n",
+                is_over_phase(p) ? "phase angle (deg)" : "t_s (s)");
 }
 
 static const char *fact_of(const glint_curve *curve, const char *wanted)
