@@ -449,8 +449,8 @@ has "$out" "attitude    table: CSV table 'turn.csv', 2 rows from 0 to 40 s" \
     'by a table of 2 angles over 60 s'
 empty "$err"
 t 'run of motions' 0 run moves.toml
-has "$out" "# - attitude: \"table: CSV table 'turn.csv', 2 rows from 0 to 40 s\"" \
-    '# - attitude: "from 20 s by a slew of 15 s to nadir, geodetic"' '# - attitude_slews:' \
+has "$out" '# - attitude:' "#   - \"table: CSV table 'turn.csv', 2 rows from 0 to 40 s\"" \
+    '#   - "from 20 s by a slew of 15 s to nadir, geodetic"' '# - attitude_slews:' \
     '# - attitude_tables:'
 t 'check of a table that is too short' 0 check moves.toml --set 'attitude.1={from=50,law="nadir"}'
 has "$err" 'the attitude table says nothing at 40 s from the start'
@@ -590,6 +590,13 @@ has "$out" '"shares": [' '"share_mean": 1'
 t 'shares in a file' 0 shares plate.toml --format csv -o shares.csv
 empty "$out"
 has shares.csv '# %ECSV 1.0' 'kind,name,component,material,facing'
+lacks shares.csv '# - set:' '# - swap:'
+t 'shares of a changed satellite' 0 shares plate.toml --format csv --swap white=white --set materials.white.rho=0.2
+has "$out" '# - scenario_hash: ' '# - set:' '#   - "materials.white.rho=0.2"' '# - swap:' '#   - "white=white"'
+t 'shares of a changed satellite as JSON' 0 shares plate.toml --format json --swap white=white
+has "$out" '"scenario_hash": ' '"swap": [' '"white=white"' '"set": []'
+t 'shares of a changed satellite for people' 0 shares plate.toml --swap white=white
+has "$out" 'changed (white=white): light in'
 t 'shares in a folder that is not there' 3 shares plate.toml -o no/such/file.csv
 t 'a swap without a name' 2 shares plate.toml --swap
 t 'a swap that is none' 2 shares plate.toml --swap white
@@ -606,8 +613,9 @@ empty "$err"
 has "$out" '53 of 53 observations compared' 'zero point of +0.28' 'Pearson R 0.99' 'chi^2 '
 t 'a track as CSV' 0 compare -q "$track" --format csv -o residuals.csv
 has residuals.csv '# %ECSV 1.0' 'line,utc,t_s,observed,sigma,predicted,residual,state'
-t 'a track as JSON' 0 compare -q "$track" --format json
-has "$out" '"observations_compared": [' '"rms_mag": '
+has residuals.csv '# - title: "Box-wing over Vienna' '# - scenario_hash: ' '# - zero_point_V: ' '# - rms_mag: '
+t 'a track as JSON' 0 compare -q "$track" --format json --threads 2 --set observed.fit_zero_point=false
+has "$out" '"scenario_hash": ' '"observed.fit_zero_point=false"' '"observations_compared": [' '"rms_mag": '
 t 'a scenario without a track' 1 compare "$source/scenarios/iss-vienna.toml" -q
 has "$err" 'no [observed]'
 t 'a track in a folder that is not there' 3 compare -q "$track" -o no/such/file.csv
@@ -622,7 +630,7 @@ t 'shares over the scenario' 3 shares -q plate-copy.toml -o plate-copy.toml
 holds 'the scenario as it was' cmp -s plate.toml plate-copy.toml
 if command -v gnuplot >/dev/null; then
     t 'a picture of shares' 0 shares -q plate.toml --plot shares.svg
-    has shares.svg '<svg' 'surface share'
+    has shares.svg '<svg' 'surfaces'
     t 'a picture of a track' 0 compare -q "$track" --plot track.svg
     has track.svg '<svg' 'observed - predicted'
 else

@@ -549,6 +549,74 @@ START_TEST(test_comparison_plot_sets_passes_side_by_side)
 }
 END_TEST
 
+/* ------------------------------------------------------------- shares and changes */
+
+/* Twelve plates that look the same way, the k-th of k + 1 m^2, as a component each. */
+static const char *write_plates(void)
+{
+    text t = {0};
+    for (int part = 0; part < PART_COMPONENT; part++)
+        text_add(&t, TURNING[part] ? TURNING[part] : "");
+    text_add(&t, "[materials.grey]\nbrdf = \"lambert\"\nrho = 0.25\n");
+    for (int k = 0; k < 12; k++)
+        text_printf(&t,
+                    "[[component]]\nname = \"part-%d\"\n[[component.plate]]\nsize_m = [1, %d]\n"
+                    "centre_m = [0, 0, %d]\nnormal = [0, 1, 0]\ntangent = [1, 0, 0]\n"
+                    "material = \"foil\"\n",
+                    k, k + 1, 20 * k);
+    const char *path = write_file("plates.toml", t.data);
+    text_free(&t);
+    return path;
+}
+
+/* No name is lost: what a legend has no room for is named together, and all adds up to 1. */
+START_TEST(test_shares_plot_names_the_largest_and_sums_up_the_others)
+{
+    const char *const swap[] = {"foil=grey"};
+    const glint_changes changes = {swap, 1, NULL, 0};
+    glint_shares *shares;
+    glint_error error = {0};
+    const char *const set[] = {"geometry.rotate.step_deg=30"};
+    ck_assert_int_eq(
+        glint_shares_find(write_plates(), set, 1, &changes, 1, NULL, NULL, &shares, NULL),
+        GLINT_OK);
+    fake_gnuplot("exec cat");
+    ck_assert_msg(glint_shares_plot(shares, 1, in_folder("a.svg"), &error) == GLINT_OK, "%s",
+                  error.message);
+    char *script = read_bytes(in_folder("a.svg"), NULL);
+    restore_gnuplot();
+    if (has_gnuplot("pictures of shares"))
+        ck_assert_msg(glint_shares_plot(shares, 1, in_folder("b.svg"), &error) == GLINT_OK, "%s",
+                      error.message);
+    ck_assert_ptr_nonnull(strstr(script, "'foil=grey'"));
+    ck_assert_ptr_nonnull(strstr(script, "$given0 << end"));
+    ck_assert_ptr_nonnull(strstr(script, "title 'as given'"));
+    const char *legend = strstr(script, "set ylabel 'components in V'");
+    ck_assert_ptr_nonnull(legend);
+    ck_assert_ptr_nonnull(strstr(legend, "title 'part-11'"));
+    const char *others = strstr(legend, " others'");
+    ck_assert_ptr_nonnull(others);
+    const char *number = others;
+    while (number[-1] != '\'')
+        number--;
+    const long n_others = strtol(number, NULL, 10);
+    ck_assert_int_gt(n_others, 0);
+    int names = 0;
+    for (int k = 0; k < 12; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "title 'part-%d'", k);
+        names += strstr(legend, name) != NULL;
+    }
+    ck_assert_int_eq(names + n_others, 12);
+    const char *row = strchr(strstr(script, "$shares1 << end"), '\n') + 1;
+    char line[256];
+    snprintf(line, sizeof line, "%.*s", (int)strcspn(row, "\n"), row);
+    assert_near(strtod(strrchr(line, ' '), NULL), 1, 1e-5);
+    free(script);
+    glint_shares_free(shares);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("plot");
@@ -573,6 +641,7 @@ int main(void)
     tcase_add_test(all, test_curve_plot_that_cannot_be_drawn_stops_the_run_at_once);
     tcase_add_test(all, test_comparison_plot_of_one_pass_has_an_axis_of_utc_and_a_curve);
     tcase_add_test(all, test_comparison_plot_sets_passes_side_by_side);
+    tcase_add_test(all, test_shares_plot_names_the_largest_and_sums_up_the_others);
     suite_add_tcase(suite, all);
     return run_suite(suite);
 }

@@ -617,8 +617,10 @@ bool glint_shares_get(const glint_shares *shares, bool changed, glint_share_kind
 bool glint_shares_whole(const glint_shares *shares, bool changed, glint_shares_total *out);
 /* What the changes did; false without changes. */
 bool glint_shares_difference(const glint_shares *shares, glint_shares_change *out);
-/* The scenario that was run, the changed one where there are changes. Borrowed. */
-const glint_scenario *glint_shares_scenario(const glint_shares *shares);
+/* Fact k from 0 of the run, and each change under "swap" or "without": as of glint_curve_fact. */
+bool glint_shares_fact(const glint_shares *shares, size_t k, const char **key, const char **value);
+/* The scenario that was run, or that with the changes: NULL without changes. Borrowed. */
+const glint_scenario *glint_shares_scenario(const glint_shares *shares, bool changed);
 /* Writes them as a table. path: as of glint_table_write. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
 glint_status glint_shares_write(const glint_shares *shares, glint_format format, const char *path,
                                 glint_error *error);
@@ -690,6 +692,9 @@ void glint_comparison_free(glint_comparison *comparison);
  * false past the end. */
 bool glint_comparison_get(const glint_comparison *comparison, size_t k, glint_observation *out);
 void glint_comparison_total(const glint_comparison *comparison, glint_comparison_summary *out);
+/* Fact k from 0 of the run, as of glint_curve_fact. */
+bool glint_comparison_fact(const glint_comparison *comparison, size_t k, const char **key,
+                           const char **value);
 /* Predicts between the observations. t_s: n moments, TT s from the start, each not before the last,
  * within the scenario's time. predicted: n; magnitudes as glint_observation has them, HUGE_VAL where
  * nothing is seen. Errors: those of glint_compare; GLINT_ARGUMENT for other moments. */

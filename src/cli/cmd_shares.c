@@ -35,7 +35,7 @@ glint_status cmd_shares(const options *o)
     glint_shares *shares = NULL;
     glint_status status = find(o, &shares);
     if (status) return status;
-    status = output_check(glint_shares_scenario(shares), o->output, &error);
+    status = output_check(glint_shares_scenario(shares, false), o->output, &error);
     if (!status) status = glint_shares_write(shares, format_of(o), o->output, &error);
     if (!status && o->plot) status = glint_shares_plot(shares, o->threads, o->plot, &error);
     glint_shares_free(shares);

@@ -1,5 +1,6 @@
 /* compare.c: the prediction at the moments of an observed track, and how they differ. */
 #include "base/constants.h"
+#include "lightcurve/facts.h"
 #include "lightcurve/photometry.h"
 #include "lightcurve/predict.h"
 
@@ -10,6 +11,7 @@ struct glint_comparison {
     const glint_scenario *s;  /* borrowed */
     glint_observation *items; /* owned; as the rows of the file */
     glint_comparison_summary total;
+    fact_list facts;
 };
 
 /* ------------------------------------------------------------- predictions */
@@ -287,7 +289,8 @@ glint_status glint_compare(const glint_scenario *s, int threads, glint_compariso
     }
     c->s = s;
     start_total(s, &c->total);
-    status = predict_all(c, threads, error);
+    facts_of_run(s, &c->facts);
+    status = c->facts.failed ? error_no_memory(error) : predict_all(c, threads, error);
     if (status) {
         glint_comparison_free(c);
         return status;
@@ -307,6 +310,7 @@ void glint_comparison_free(glint_comparison *c)
 {
     if (!c) return;
     free(c->items);
+    fact_list_free(&c->facts);
     free(c);
 }
 
@@ -315,6 +319,12 @@ bool glint_comparison_get(const glint_comparison *c, size_t k, glint_observation
     if (k >= c->s->observed.n) return false;
     *out = c->items[k];
     return true;
+}
+
+bool glint_comparison_fact(const glint_comparison *c, size_t k, const char **key,
+                           const char **value)
+{
+    return fact_list_get(&c->facts, k, key, value);
 }
 
 void glint_comparison_total(const glint_comparison *c, glint_comparison_summary *out)

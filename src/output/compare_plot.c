@@ -215,14 +215,6 @@ static double residual_height(const track_picture *p)
     return 1.1 * fmax(largest, fmin(reach, 3 * largest));
 }
 
-/* A round step that parts such an axis into a few. */
-static double residual_step(double height)
-{
-    const double wanted = height / 2.5, ten = pow(10, floor(log10(wanted)));
-    const double part = wanted / ten; /* 1 to 10 */
-    return ten * (part <= 2 ? 2 : part <= 5 ? 5 : 10);
-}
-
 static void write_panels(const track_picture *p, text *t)
 {
     const double most = residual_height(p);
@@ -240,7 +232,7 @@ static void write_panels(const track_picture *p, text *t)
                 "set offsets\nunset key\nset tmargin at screen 0.37\nset bmargin at screen 0.15\n"
                 "set format x marks\nset xlabel bottom noenhanced\n");
     text_printf(t, "set yrange [%.6g:%.6g] noreverse\nset ytics %.6g\n", -most, most,
-                residual_step(most));
+                plot_round_step(most / 2.5));
     if (p->n_passes > 1) write_pass_marks(p, true, t);
     text_add(t, "set ylabel 'observed - predicted'\n"
                 "plot 0 with lines lc rgb '#1f4e79' lw 1, "

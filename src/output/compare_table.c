@@ -1,6 +1,7 @@
 /* compare_table.c: a prediction beside an observed track: as a table for people, as CSV with an
  * ECSV header, as JSON. */
 #include "output/ecsv.h"
+#include "output/facts.h"
 #include "output/json.h"
 
 static const double DEGREES = 57.295779513082320877; /* per rad */
@@ -174,11 +175,15 @@ static void csv_row(const glint_observation *o, double zero_point, text *t)
     text_char(t, '\n');
 }
 
+static bool fact_of(const void *comparison, size_t k, const char **key, const char **value)
+{
+    return glint_comparison_fact(comparison, k, key, value);
+}
+
 static void csv_facts(const glint_comparison_summary *s, text *t)
 {
     fact facts[N_FACTS];
     list_facts(s, facts);
-    ecsv_fact(t, "glint_version", glint_version());
     ecsv_fact(t, "file", s->file);
     ecsv_fact(t, "format", s->format);
     ecsv_fact(t, "magnitude", s->kind);
@@ -199,6 +204,7 @@ static void write_csv(const glint_comparison *c, const glint_comparison_summary 
 {
     glint_observation o;
     ecsv_begin(t, COLUMNS, N_COLUMNS);
+    ecsv_facts(t, fact_of, c);
     csv_facts(s, t);
     ecsv_end(t, COLUMNS, N_COLUMNS);
     for (size_t k = 0; glint_comparison_get(c, k, &o); k++)
@@ -243,7 +249,7 @@ static void write_json(const glint_comparison *c, const glint_comparison_summary
     json j = {.out = t};
     list_facts(s, facts);
     json_object(&j, NULL);
-    json_string(&j, "glint_version", glint_version());
+    json_facts(&j, fact_of, c);
     json_string(&j, "file", s->file);
     json_string(&j, "format", s->format);
     json_string(&j, "magnitude", s->kind);

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -158,6 +159,12 @@ double plot_utc_s(const glint_utc *u)
 {
     const double day_s = 86400.0 * (double)days_of(u->year, u->month, u->day);
     return day_s + 3600.0 * u->hour + 60.0 * u->minute + u->second + 1e-6 * u->microsecond;
+}
+
+double plot_round_step(double least)
+{
+    const double ten = pow(10, floor(log10(least))), part = least / ten; /* 1 to 10 */
+    return ten * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
 }
 
 void plot_time_axis(double from_s, double to_s, text *script)

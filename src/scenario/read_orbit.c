@@ -330,8 +330,9 @@ static void refuse_lost_choices(reader *r)
         const char *const *files = CHOICES[k].files;
         const bool has_file =
             toml_child(r->table, files[0]) || (files[1] && toml_child(r->table, files[1]));
-        if (!toml_child(r->table, CHOICES[k].key) || has_file) continue;
-        reader_fail(r, reader_place(r, CHOICES[k].key),
+        const toml_node *choice = reader_find(r, CHOICES[k].key);
+        if (!choice || has_file) continue;
+        reader_fail(r, choice->key_where,
                     "'%s' chooses from the file of '%s'%s%s%s, which is not given here; expected "
                     "it there, or not at all",
                     CHOICES[k].key, files[0], files[1] ? " or '" : "", files[1] ? files[1] : "",
