@@ -587,6 +587,10 @@ empty "$err"
 has "$out" 'light in 2 of 3 rows' 'materials ' 'components ' 'surfaces ' '/+z'
 t 'shares as JSON' 0 shares plate.toml --format json
 has "$out" '"shares": [' '"share_mean": 1'
+t 'passes say what run they are of' 0 passes -q "$source/scenarios/iss-vienna.toml" --format csv
+has "$out" '# - scenario_hash: ' '# - orbit: "SGP4' '# - zero_point_V: '
+t 'passes of two scenarios say both' 0 passes -q "$source"/scenarios/{iss-vienna,flashes-vienna}.toml --format json
+has "$out" '"scenario_hash": [' '"A spinning stage flashes over Vienna"' '"time_scale": '
 t 'shares in a file' 0 shares plate.toml --format csv -o shares.csv
 empty "$out"
 has shares.csv '# %ECSV 1.0' 'kind,name,component,material,facing'
@@ -606,6 +610,8 @@ t 'a swap of a material that is not there' 2 shares plate.toml --swap whit=white
 has "$err" "no material 'whit'; did you mean 'white'?"
 t 'without a component that is not there' 2 shares plate.toml --without plat
 has "$err" "there is no component 'plat'"
+t 'a swap to nothing like what there is' 2 shares plate.toml --swap white=gold
+has "$err" "there is no material 'gold'; there are: white"
 t 'shares of a scenario that is not there' 1 shares nothere.toml
 track=$source/scenarios/compare-vienna.toml
 t 'a track' 0 compare -q "$track"
@@ -616,6 +622,9 @@ has residuals.csv '# %ECSV 1.0' 'line,utc,t_s,observed,sigma,predicted,residual,
 has residuals.csv '# - title: "Box-wing over Vienna' '# - scenario_hash: ' '# - zero_point_V: ' '# - rms_mag: '
 t 'a track as JSON' 0 compare -q "$track" --format json --threads 2 --set observed.fit_zero_point=false
 has "$out" '"scenario_hash": ' '"observed.fit_zero_point=false"' '"observations_compared": [' '"rms_mag": '
+t 'a track of another format' 1 compare -q "$track" --set 'observed.format="mmt"'
+has "$err" 'has 1 word; expected nine or ten' 'more errors are not shown'
+lines "$err" 51
 t 'a scenario without a track' 1 compare "$source/scenarios/iss-vienna.toml" -q
 has "$err" 'no [observed]'
 t 'a track in a folder that is not there' 3 compare -q "$track" -o no/such/file.csv

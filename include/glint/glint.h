@@ -305,6 +305,8 @@ const glint_pass *glint_passes_get(const glint_passes *passes, size_t k);
 /* Name of the band of the magnitudes, and of the satellite; "" where not said. Borrowed. */
 const char *glint_passes_band(const glint_passes *passes);
 const char *glint_passes_satellite(const glint_passes *passes);
+/* Fact k from 0 of the run, or of the orbit where there is no satellite: as of glint_curve_fact. */
+bool glint_passes_fact(const glint_passes *passes, size_t k, const char **key, const char **value);
 /* True when a path names a file that the scenario was read from: nothing should be written there.
  */
 bool glint_passes_reads(const glint_passes *passes, const char *path);
