@@ -454,6 +454,9 @@ has "$out" '# - attitude:' "#   - \"table: CSV table 'turn.csv', 2 rows from 0 t
     '# - attitude_tables:'
 t 'check of a table that is too short' 0 check moves.toml --set 'attitude.1={from=50,law="nadir"}'
 has "$err" 'the attitude table says nothing at 40 s from the start'
+t 'check of a spin with an offset' 0 check -q "$source/scenarios/flashes-vienna.toml" \
+    --set 'attitude.offset_deg={axis=[1,2,3],angle=-3}'
+has "$out" 'attitude    spin, one turn in 30 s, with an offset of 3 deg'
 t 'run beyond a table' 1 run moves.toml --set 'attitude.1={from=50,law="nadir"}'
 has "$err" 'says nothing at' 'it ends at 40 s'
 t 'verify' 0 verify good.toml
