@@ -420,9 +420,12 @@ START_TEST(test_path_beside_leaves_out_ways_back)
     static const struct {
         const char *from, *path, *joined;
     } cases[] = {
-        {"a/m.toml", "../c", "c"},           {"a/b/m.toml", "../../c", "c"},
-        {"a/b/m.toml", "../c", "a/c"},       {"./a/m.toml", "../c", "./c"},
-        {"link/m.toml", "../c", "link/../c"}, {"../a/m.toml", "../c", "../a/../c"},
+        {"a/m.toml", "../c", "c"},
+        {"a/b/m.toml", "../../c", "c"},
+        {"a/b/m.toml", "../c", "a/c"},
+        {"./a/m.toml", "../c", "./c"},
+        {"link/m.toml", "../c", "link/../c"},
+        {"../a/m.toml", "../c", "../a/../c"},
         {"a/m.toml", "../a/../c", "c"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

@@ -643,11 +643,28 @@ holds 'the scenario as it was' cmp -s plate.toml plate-copy.toml
 if command -v gnuplot >/dev/null; then
     t 'a picture of shares' 0 shares -q plate.toml --plot shares.svg
     has shares.svg '<svg' 'surfaces'
+    t 'a picture in the place of its table' 2 shares -q plate.toml -o same.svg --plot same.svg
+    has "$err" "both go to 'same.svg'"
+    t 'a picture in the place of residuals' 2 compare -q "$track" -o same.svg --plot same.svg
+    t 'a picture in the place of curves' 2 brdf show -q plate.toml -o same.svg --plot same.svg
+    holds 'none of them written' [ ! -e same.svg ]
+    t 'a picture of shares for two observers' 2 shares -q "$source/scenarios/geo-moon-shadow.toml" --plot two.svg
+    has "$err" 'one observer, and there are 2'
+    holds 'no picture for two' [ ! -e two.svg ]
     t 'a picture of a track' 0 compare -q "$track" --plot track.svg
     has track.svg '<svg' 'observed - predicted'
 else
     skip 'pictures of shares and tracks' 'no gnuplot'
 fi
+
+printf 'theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n10,0,20,180\n10,0,30,18' >cut.csv
+t 'values at angles of a file that is cut' 0 brdf show plate.toml --geometry cut.csv
+has "$err" 'cut.csv:3:1: warning: the last row has no line end'
+holds 'the whole row alone' [ "$(grep -vc '^#' "$out")" = 2 ]
+printf 'sun_x,sun_y,sun_z,obs_x,obs_y,obs_z\n0,0,1,0,0,1\n0,0,1,0,0,0.' >cut.csv
+t 'directions of a file that is cut' 0 run plate.toml --set 'geometry={table="cut.csv"}'
+has "$err" 'cut.csv:3:1: warning: the last row has no line end'
+holds 'the whole directions alone' [ "$(grep -vc '^#' "$out")" = 2 ]
 
 # A Lambert surface of reflectance 0.2 and a lobe, at one incidence; the truth is among the models.
 {

@@ -602,7 +602,8 @@ START_TEST(test_mesh_materials_refuse_faces_without_one_and_names_without_faces)
     spec = mesh_shape("named.obj");
     spec.material[primitive_key_index(spec.kind, "material")] = PRIMITIVE_NO_MATERIAL;
     spec.given[primitive_key_index(spec.kind, "material")] = false;
-    assert_mesh_refused(&spec, "shape.toml", TABLE_LINE, 1, "the faces of the mesh have no material: ");
+    assert_mesh_refused(&spec, "shape.toml", TABLE_LINE, 1,
+                        "the faces of the mesh have no material: ");
     spec = mesh_shape("named.obj");
     SET(&spec, "unit", 0);
     SET(&spec, "scale", 1);

@@ -358,9 +358,8 @@ END_TEST
 START_TEST(test_verify_expected_table_without_its_last_line_end_lacks_that_row)
 {
     /* cut within the last number, "0.5" of "0.5e-12" would pass as another value */
-    assert_table("tolerance = { flux_ratio_V = 1 }\n",
-                 "flux_ratio_V\n1e-12\n9e-13\n5e-13\n0\n0", 5, 1, 0, 0,
-                 "the expected table has 4");
+    assert_table("tolerance = { flux_ratio_V = 1 }\n", "flux_ratio_V\n1e-12\n9e-13\n5e-13\n0\n0", 5,
+                 1, 0, 0, "the expected table has 4");
 }
 END_TEST
 
@@ -380,8 +379,7 @@ static Suite *verify_suite(void)
     tcase_add_test(all, test_verify_broken_requirement_names_the_surface_and_the_date);
     tcase_add_test(all, test_verify_requirement_at_a_reference_height);
     tcase_add_test(all, test_verify_requirement_says_its_margin);
-    tcase_add_test(all,
-                   test_verify_expected_table_without_its_last_line_end_lacks_that_row);
+    tcase_add_test(all, test_verify_expected_table_without_its_last_line_end_lacks_that_row);
     suite_add_tcase(suite, all);
     return suite;
 }

@@ -304,8 +304,7 @@ static void report_requirement(const requirement *r, tally *t, text *out)
 {
     if (t->selected == 0) return;
     text_printf(out, "%s fainter than %g", r->column, r->fainter_than);
-    if (r->has_reference)
-        text_printf(out, " (at a height of %g km)", r->reference_height_m * 1e-3);
+    if (r->has_reference) text_printf(out, " (at a height of %g km)", r->reference_height_m * 1e-3);
     text_printf(out, " in %.4g %% of %lld rows, required %.4g %%; ", 100 * met_fraction(t),
                 (long long)t->selected, 100 * r->for_fraction);
     const double margin = margin_of(r, t);

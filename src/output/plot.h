@@ -28,7 +28,8 @@ double plot_utc_s(const glint_utc *utc);
  * then what its marks show (set format x marks), and `bottom` the text below it, with the date. */
 void plot_time_axis(double from_s, double to_s, text *script);
 
-/* The smallest of 1, 2 and 5 times a power of ten that is not below `least` > 0: a step of marks. */
+/* The smallest of 1, 2 and 5 times a power of ten that is not below `least` > 0: a step of marks.
+ */
 double plot_round_step(double least);
 
 /* Appends a text to a script as a string (an expression that begins with a quote) that gnuplot

@@ -462,6 +462,11 @@ static glint_status draw_curve(const glint_scenario *s, int threads, glint_curve
     if (status && error && first) *error = *first;
     glint_errors_free(errors);
     if (status) return status;
+    if (glint_curve_observers(*curve) > 1)
+        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                         "a picture shows the curve of one observer, and there are %zu; expected a "
+                         "scenario of one, or no picture",
+                         glint_curve_observers(*curve));
     *picture = curve_plot_start(*curve);
     if (!*picture) return error_no_memory(error);
     for (;;) {

@@ -241,8 +241,8 @@ static void check_span(reading *rd, place where, const scenario_orbit *o)
         status = errors_add(rd->errors, GLINT_INPUT, where,
                             "the table of positions goes from %s to %s UTC, and the run from %s to "
                             "%s UTC; expected a run inside the table",
-                            reading_moment(s, from_s).utc, reading_moment(s, to_s).utc, reading_moment(s, 0).utc,
-                            reading_moment(s, end_s).utc);
+                            reading_moment(s, from_s).utc, reading_moment(s, to_s).utc,
+                            reading_moment(s, 0).utc, reading_moment(s, end_s).utc);
     else if (seen && from_s > -light_s)
         status = errors_add(rd->errors, GLINT_INPUT, where,
                             "the table of positions begins at %s UTC, %.3g s before the run; light "
