@@ -19,6 +19,7 @@ typedef struct track_pass {
     size_t first, n;
     double from_s, to_s; /* TT s from the scenario's start */
     double x;
+    bool is_marked; /* with its date */
 } track_pass;
 
 typedef struct track_picture {
@@ -30,7 +31,7 @@ typedef struct track_picture {
     size_t n_passes;
     double margin; /* between passes, on the axis */
     double end;    /* of the last pass there */
-    size_t every;  /* of so many passes one is marked with its date */
+    bool all_marked;
 } track_picture;
 
 /* --------------------------------------------------------------------- layout */
@@ -64,7 +65,6 @@ static bool gather(track_picture *p)
  * several on one that counts their seconds. */
 static void lay_out(track_picture *p)
 {
-    enum { MOST_MARKS = 7 };
     double sum_s = 0;
     for (size_t k = 0; k < p->n; k++) {
         const double t_s = p->items[k].t_s;
@@ -76,13 +76,27 @@ static void lay_out(track_picture *p)
     }
     for (size_t k = 0; k < p->n_passes; k++)
         sum_s += p->passes[k].to_s - p->passes[k].from_s;
-    p->every = (p->n_passes + MOST_MARKS - 1) / MOST_MARKS;
     p->margin = sum_s > 0 ? 0.5 * sum_s / (double)p->n_passes : 1;
     p->end = p->n_passes == 1 ? plot_utc_s(&p->items[0].utc) : 0;
     for (size_t k = 0; k < p->n_passes; k++) {
         track_pass *pass = &p->passes[k];
         pass->x = k ? p->end + p->margin : p->end;
         p->end = pass->x + pass->to_s - pass->from_s;
+    }
+}
+
+/* A date takes so much of the axis that not every pass has room for its own. */
+static void mark_passes(track_picture *p)
+{
+    static const double MOST_MARKS = 7;
+    const double length = p->end - p->passes[0].x + p->margin;
+    double last = -HUGE_VAL;
+    p->all_marked = true;
+    for (size_t k = 0; k < p->n_passes; k++) {
+        track_pass *pass = &p->passes[k];
+        pass->is_marked = pass->x - last >= length / MOST_MARKS;
+        if (pass->is_marked) last = pass->x;
+        p->all_marked = p->all_marked && pass->is_marked;
     }
 }
 
@@ -144,8 +158,9 @@ static void write_pass_marks(const track_picture *p, bool labelled, text *t)
     static const char *const MONTHS[12] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                            "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
     text_add(t, "set xtics out ()\n");
-    for (size_t k = 0; k < p->n_passes; k += p->every) {
+    for (size_t k = 0; k < p->n_passes; k++) {
         const track_pass *pass = &p->passes[k];
+        if (!pass->is_marked) continue;
         const glint_utc *u = &p->items[pass->first].utc;
         text_add(t, "set xtics add (\"");
         if (labelled)
@@ -164,7 +179,7 @@ static void write_pass_axis(const track_picture *p, text *t)
                 "set xlabel offset 0,-1\n"
                 "bottom = 'UTC at the beginning of %s; time between passes is left out'\n",
                 -0.5 * p->margin, p->end + 0.5 * p->margin,
-                p->every == 1 ? "each pass" : "some passes");
+                p->all_marked ? "each pass" : "some passes");
     for (size_t k = 1; k < p->n_passes && p->n_passes <= MOST_LINES; k++) {
         const double x = p->passes[k].x - 0.5 * p->margin;
         text_printf(t,
@@ -215,6 +230,19 @@ static double residual_height(const track_picture *p)
     return 1.1 * fmax(largest, fmin(reach, 3 * largest));
 }
 
+/* Points of a column of $observed, with their sigmas where there are any. */
+static void add_observed(const track_picture *p, int column, text *t)
+{
+    if (p->total.with_sigma > 0)
+        text_printf(t,
+                    ", $observed using 1:%d:($3 > 0 ? $3 : NaN) with yerrorbars pt 7 ps 0 "
+                    "lc rgb '#c9a09a' notitle",
+                    column);
+    text_printf(t,
+                ", $observed using 1:%d with points pt 7 ps 0.6 lc rgb '#c0392b' title 'observed'",
+                column);
+}
+
 static void write_panels(const track_picture *p, text *t)
 {
     const double most = residual_height(p);
@@ -225,21 +253,17 @@ static void write_panels(const track_picture *p, text *t)
                 "set key at graph 1, graph 1.02 right bottom horizontal Left reverse\n",
                 p->total.band);
     text_add(t, "plot $predicted using 1:2 with lines lw 1.5 lc rgb '#1f4e79' title 'predicted', "
-                "$observed using 1:5 with points pt 7 ps 0.25 lc rgb '#1f4e79' notitle, "
-                "$observed using 1:2:($3 > 0 ? $3 : NaN) with yerrorbars pt 7 ps 0 "
-                "lc rgb '#c9a09a' notitle, "
-                "$observed using 1:2 with points pt 7 ps 0.6 lc rgb '#c0392b' title 'observed'\n"
-                "set offsets\nunset key\nset tmargin at screen 0.37\nset bmargin at screen 0.15\n"
+                "$observed using 1:5 with points pt 7 ps 0.25 lc rgb '#1f4e79' notitle");
+    add_observed(p, 2, t);
+    text_add(t, "\nset offsets\nunset key\nset tmargin at screen 0.37\nset bmargin at screen 0.15\n"
                 "set format x marks\nset xlabel bottom noenhanced\n");
     text_printf(t, "set yrange [%.6g:%.6g] noreverse\nset ytics %.6g\n", -most, most,
                 plot_round_step(most / 2.5));
     if (p->n_passes > 1) write_pass_marks(p, true, t);
     text_add(t, "set ylabel 'observed - predicted'\n"
-                "plot 0 with lines lc rgb '#1f4e79' lw 1, "
-                "$observed using 1:4:($3 > 0 ? $3 : NaN) with yerrorbars pt 7 ps 0 "
-                "lc rgb '#c9a09a', "
-                "$observed using 1:4 with points pt 7 ps 0.6 lc rgb '#c0392b'\n"
-                "unset multiplot\n");
+                "plot 0 with lines lc rgb '#1f4e79' lw 1");
+    add_observed(p, 4, t);
+    text_add(t, "\nunset multiplot\n");
 }
 
 static glint_status write_script(const track_picture *p, int threads, text *t, glint_error *error)
@@ -270,6 +294,7 @@ glint_status glint_comparison_plot(const glint_comparison *c, int threads, const
                            "no observation could be compared, so there is nothing to draw");
     } else {
         lay_out(&p);
+        mark_passes(&p);
         status = write_script(&p, threads, &script, error);
     }
     if (!status && script.failed) status = error_no_memory(error);
