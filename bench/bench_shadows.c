@@ -142,11 +142,12 @@ static void add_dish(facet_list *list, int n_rings, int n_sides)
         }
 }
 
-/* A prism along z on the bus. */
-static void add_tank(facet_list *list, int n_sides)
+/* A prism along z on the bus, of about n facets in its wall: rings one on the other. */
+static void add_tank(facet_list *list, int n)
 {
-    enum { MOST_SIDES = 4096 };
-    static double bottom[MOST_SIDES][3], top[MOST_SIDES][3];
+    enum { MOST_SIDES = 96 };
+    const int n_sides = n < MOST_SIDES ? n : MOST_SIDES, n_rings = n / n_sides;
+    double bottom[MOST_SIDES][3], top[MOST_SIDES][3];
     const double radius_m = 0.6, from_m = 1.6, to_m = 3.0;
     for (int k = 0; k < n_sides; k++) {
         const double a = TWO_PI * k / n_sides;
@@ -157,9 +158,13 @@ static void add_tank(facet_list *list, int n_sides)
     }
     for (int k = 0; k < n_sides; k++) {
         const double *p = top[k], *q = top[(k + 1) % n_sides];
-        const double wall[4][3] = {
-            {p[0], p[1], from_m}, {q[0], q[1], from_m}, {q[0], q[1], to_m}, {p[0], p[1], to_m}};
-        add_facet(list, wall, 4);
+        for (int ring = 0; ring < n_rings; ring++) {
+            const double z = from_m + (to_m - from_m) * ring / n_rings;
+            const double next = from_m + (to_m - from_m) * (ring + 1) / n_rings;
+            const double wall[4][3] = {
+                {p[0], p[1], z}, {q[0], q[1], z}, {q[0], q[1], next}, {p[0], p[1], next}};
+            add_facet(list, wall, 4);
+        }
     }
     add_facet(list, (const double(*)[3])top, n_sides);
     add_facet(list, (const double(*)[3])bottom, n_sides);

@@ -1,9 +1,9 @@
 #include "facets/polygon.h"
 
+#include "base/grow.h"
+
 #include <assert.h>
-#include <limits.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* --- one polygon --- */
@@ -131,22 +131,6 @@ int polygon_hull(point2 *points, int n, point2 *hull)
 
 /* --- lists --- */
 
-/* Makes room for `needed` entries of `size` bytes: at least doubled, so that appending costs O(1)
- * on average. False when memory is out. */
-static bool make_room(void *array, int *capacity, long needed, size_t size)
-{
-    if (needed <= *capacity) return true;
-    if (needed > INT_MAX / 2) return false;
-    const int wanted = needed > 2L * *capacity ? (int)needed + 16 : 2 * *capacity;
-    void *old, *grown;
-    memcpy(&old, array, sizeof old);
-    grown = realloc(old, (size_t)wanted * size);
-    if (!grown) return false;
-    memcpy(array, &grown, sizeof grown);
-    *capacity = wanted;
-    return true;
-}
-
 void polygon_list_free(polygon_list *list)
 {
     if (!list) return;
@@ -163,11 +147,11 @@ void polygon_list_clear(polygon_list *list)
 
 point2 *polygon_list_room(polygon_list *list, int n)
 {
-    const bool ok = make_room(&list->points, &list->point_capacity, (long)list->n_points + n,
+    const bool ok = grow_room(&list->points, &list->point_capacity, (long)list->n_points + n,
                               sizeof *list->points) &&
-                    make_room(&list->lines, &list->line_capacity, list->n_lines + n / 4 + 1L,
+                    grow_room(&list->lines, &list->line_capacity, list->n_lines + n / 4 + 1L,
                               sizeof *list->lines) &&
-                    make_room(&list->items, &list->capacity, list->n + 1L, sizeof *list->items);
+                    grow_room(&list->items, &list->capacity, list->n + 1L, sizeof *list->items);
     return ok ? list->points + list->n_points : NULL;
 }
 
@@ -190,16 +174,56 @@ static void set_lines(const point2 *points, int n, int first, double near, polyg
                              {slack[0], slack[1], slack[2], slack[3]}};
 }
 
+/* Lines along the edges of a ring, as set_lines has them, and its box. False where some corner
+ * turns by no more than rounding: polygon_tidy is to see to it. */
+CLONES static bool take_neat(const point2 *points, int n, double near, polygon_lines *lines,
+                             box2 *box)
+{
+    double4 least = {points[0].x, points[0].y, -points[0].x, -points[0].y};
+    mask4 flat = {0};
+    for (int first = 0; first < n; first += 4) {
+        point2 p[6]; /* from the one before the first to the one after the last */
+        p[0] = points[first > 0 ? first - 1 : n - 1];
+        for (int j = 0; j < 5; j++)
+            p[j + 1] = points[first + j < n ? first + j : 0];
+        for (int j = 1; j < 5; j++)
+            least = least4(least, (double4){p[j].x, p[j].y, -p[j].x, -p[j].y});
+        const double4 from_x = {p[0].x, p[1].x, p[2].x, p[3].x};
+        const double4 from_y = {p[0].y, p[1].y, p[2].y, p[3].y};
+        const double4 to_x = {p[1].x, p[2].x, p[3].x, p[4].x};
+        const double4 to_y = {p[1].y, p[2].y, p[3].y, p[4].y};
+        const double4 next_x = {p[2].x, p[3].x, p[4].x, p[5].x};
+        const double4 next_y = {p[2].y, p[3].y, p[4].y, p[5].y};
+        const double4 dx = to_x - from_x, dy = to_y - from_y;
+        const double4 chord_x = next_x - from_x, chord_y = next_y - from_y;
+        const double4 turn = dx * chord_y - dy * chord_x;
+        const mask4 own = (mask4){0, 1, 2, 3} < n - first; /* lanes with an edge */
+        polygon_lines *l = &lines[first / 4];
+        flat |= own & (turn <= near * (size4(chord_x) + size4(chord_y)));
+        l->a = pick4(own, -dy, all4(0.0));
+        l->b = pick4(own, dx, all4(0.0));
+        l->c = pick4(own, dy * from_x - dx * from_y, all4(1.0));
+        l->slack = pick4(own, near * (size4(dx) + size4(dy)), all4(0.0));
+    }
+    *box = (box2){least[0], least[1], -least[2], -least[3]};
+    return !(flat[0] | flat[1] | flat[2] | flat[3]);
+}
+
 bool polygon_list_take(polygon_list *list, int n, double near)
 {
     point2 *points = list->points + list->n_points;
-    n = polygon_tidy(points, n, near);
-    if (n == 0) return false;
-    list->items[list->n++] =
-        (polygon_item){list->n_points, n, list->n_lines, polygon_box(points, n)};
+    polygon_lines *lines = list->lines + list->n_lines;
+    polygon_item item = {.first = list->n_points, .n = n, .first_lines = list->n_lines};
+    if (!(n >= 3 && take_neat(points, n, near, lines, &item.box))) {
+        item.n = n = polygon_tidy(points, n, near);
+        if (n == 0) return false;
+        item.box = polygon_box(points, n);
+        for (int first = 0; first < n; first += 4)
+            set_lines(points, n, first, near, &lines[first / 4]);
+    }
+    list->items[list->n++] = item;
     list->n_points += n;
-    for (int first = 0; first < n; first += 4)
-        set_lines(points, n, first, near, &list->lines[list->n_lines++]);
+    list->n_lines += (n + 3) / 4;
     return true;
 }
 
@@ -245,17 +269,23 @@ bool polygon_has_aside(const polygon_list *list, int k, const point2 *points, in
            POLYGON_APART;
 }
 
+polygon_relation polygon_relate_to_edges(const polygon_list *list, int k,
+                                         const polygon_list *covers, int cover)
+{
+    const polygon_item *p = &list->items[k], *c = &covers->items[cover];
+    if (!boxes_overlap(&p->box, &c->box)) return POLYGON_APART;
+    return relate_to_lines(list->points + p->first, p->n, covers->lines + c->first_lines,
+                           (c->n + 3) / 4);
+}
+
 polygon_relation polygon_relate(const polygon_list *list, int k, const polygon_list *covers,
                                 int cover)
 {
     const polygon_item *p = &list->items[k], *c = &covers->items[cover];
-    if (!boxes_overlap(&p->box, &c->box)) return POLYGON_APART;
-    const point2 *own = list->points + p->first, *others = covers->points + c->first;
-    const polygon_relation relation =
-        relate_to_lines(own, p->n, covers->lines + c->first_lines, (c->n + 3) / 4);
+    const polygon_relation relation = polygon_relate_to_edges(list, k, covers, cover);
     if (relation != POLYGON_CROSSED) return relation;
-    return relate_to_lines(others, c->n, list->lines + p->first_lines, (p->n + 3) / 4) ==
-                   POLYGON_APART
+    return relate_to_lines(covers->points + c->first, c->n, list->lines + p->first_lines,
+                           (p->n + 3) / 4) == POLYGON_APART
                ? POLYGON_APART
                : POLYGON_CROSSED;
 }
@@ -367,6 +397,7 @@ void polygon_work_free(polygon_work *work)
     free(work->spare);
     free(work->tasks);
     free(work->lists);
+    free(work->edges);
     *work = (polygon_work){0};
 }
 
@@ -411,41 +442,137 @@ static int intersect(const polygon_list *covers, const polygon_item *cover, cons
     return n;
 }
 
-/* The area of a ring that none of n covers covers: of what each shares with it, that counts which
- * those before it leave. The ring is only cut by lines along the covers' edges, never the other
- * way: it need not be tidy. room: for 2 `most` points and as many again for each cover, `most`
- * being the greatest number of points that a ring can come to have. */
-static double uncovered_by_few(const polygon_list *covers, const int *list, int n_list,
-                               const point2 *ring, int n, point2 *room, int most)
+/* Four edges y = left_y + slope (x - left_x), from left_x to right_x; sign: 1 of an upper edge, -1
+ * of a lower one. Upright edges count for nothing: there left_x = right_x. */
+typedef struct four_edges {
+    double4 left_x, left_y, right_x, slope, sign;
+} four_edges;
+
+/* Differences of abscissae up to this are none: slopes stay finite. */
+#define UPRIGHT 1e-290
+
+/* The edges of a ring by fours, the last point again where there is none left. */
+CLONES static void find_edges(const point2 *ring, int n, four_edges *out)
+{
+    const double4 zero = {0}, one = all4(1.0);
+    point2 p = ring[n - 1];
+    for (int first = 0; first < n; first += 4) {
+        point2 q[4];
+        for (int j = 0; j < 4; j++)
+            q[j] = ring[first + j < n ? first + j : n - 1];
+        const double4 x = {p.x, q[0].x, q[1].x, q[2].x}, y = {p.y, q[0].y, q[1].y, q[2].y};
+        const double4 to_x = {q[0].x, q[1].x, q[2].x, q[3].x};
+        const double4 to_y = {q[0].y, q[1].y, q[2].y, q[3].y};
+        const double4 dx = to_x - x;
+        const mask4 upper = dx<-UPRIGHT, lower = dx> UPRIGHT;
+        four_edges *e = &out[first / 4];
+        e->left_x = pick4(upper, to_x, x);
+        e->left_y = pick4(upper, to_y, y);
+        e->right_x = pick4(lower, to_x, x);
+        e->slope = (to_y - y) / pick4(upper | lower, dx, one);
+        e->sign = pick4(upper, one, pick4(lower, -one, zero));
+        p = q[3];
+    }
+}
+
+/* The area that two polygons share: sums over pairs of edges, signed, of what is below both. It
+ * turns on no decision: edges that coincide, or nearly, do it no harm. */
+CLONES static double shared_area(const four_edges *a, int n_a, const four_edges *b, int n_b)
+{
+    const double4 zero = {0}, tiny = all4(1e-300);
+    double4 sum = {0};
+    for (int first = 0; first < n_a; first += 4)
+        for (int j = 0; j < 4 && first + j < n_a; j++) {
+            const four_edges *own = &a[first / 4];
+            const double left_x = own->left_x[j], left_y = own->left_y[j], slope = own->slope[j];
+            const double4 a_left = all4(left_x), a_right = all4(own->right_x[j]);
+            const double sign = own->sign[j];
+            for (int i = 0; 4 * i < n_b; i++) {
+                const double4 from = most4(a_left, b[i].left_x);
+                const double4 to = least4(a_right, b[i].right_x);
+                const double4 width = most4(to - from, zero);
+                const double4 b_from = b[i].left_y + b[i].slope * (from - b[i].left_x);
+                const double4 b_to = b[i].left_y + b[i].slope * (to - b[i].left_x);
+                const double4 d_from = left_y + slope * (from - left_x) - b_from;
+                const double4 d_to = left_y + slope * (to - left_x) - b_to;
+                const double4 below = least4(d_from, zero) + least4(d_to, zero);
+                const double4 all = size4(d_from) + size4(d_to);
+                /* of the triangle or trapezoid by which the edge of a is below that of b */
+                const double4 less = below * -below / most4(all, tiny);
+                sum += sign * b[i].sign * width * (b_from + b_to + less);
+            }
+        }
+    return 0.5 * ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+}
+
+/* What is needed for the areas that few covers leave. */
+typedef struct few_covers {
+    const polygon_list *covers;
+    const int *list;
+    const four_edges *edges[FEW_COVERS]; /* of the covers */
+    int most; /* the greatest number of points that a ring can come to have */
+} few_covers;
+
+static inline box2 common_box(const box2 *a, const box2 *b)
+{
+    return (box2){a->lo_x > b->lo_x ? a->lo_x : b->lo_x, a->lo_y > b->lo_y ? a->lo_y : b->lo_y,
+                  a->hi_x < b->hi_x ? a->hi_x : b->hi_x, a->hi_y < b->hi_y ? a->hi_y : b->hi_y};
+}
+
+/* The area of a ring that none of the first n covers covers: of what each shares with it, that
+ * counts which those before it leave. room: for 2 `most` points and as many again for each cover;
+ * edges: for the edges of rings of `most` points, one for each cover and one more. */
+static double uncovered_by_few(const few_covers *f, int n_covers, const point2 *ring, int n,
+                               const box2 *box, point2 *room, four_edges *edges)
 {
     double left = polygon_area(ring, n);
-    const box2 box = polygon_box(ring, n);
-    for (int k = 0; k < n_list; k++) {
-        const polygon_item *cover = &covers->items[list[k]];
-        if (!boxes_overlap(&box, &cover->box)) continue;
+    find_edges(ring, n, edges);
+    for (int k = 0; k < n_covers; k++) {
+        const polygon_item *cover = &f->covers->items[f->list[k]];
+        if (!boxes_overlap(box, &cover->box)) continue;
+        const box2 both = common_box(box, &cover->box);
+        bool alone = true;
+        for (int j = 0; j < k; j++)
+            alone &= !boxes_overlap(&both, &f->covers->items[f->list[j]].box);
+        if (alone) {
+            left -= shared_area(edges, n, f->edges[k], cover->n);
+            continue;
+        }
         const point2 *shared;
-        const int n_shared = intersect(covers, cover, ring, n, room, room + most, &shared);
+        const int n_shared = intersect(f->covers, cover, ring, n, room, room + f->most, &shared);
         if (n_shared < 3) continue;
-        left -= k == 0
-                    ? polygon_area(shared, n_shared)
-                    : uncovered_by_few(covers, list, k, shared, n_shared, room + 2L * most, most);
+        const box2 within = polygon_box(shared, n_shared);
+        left -= uncovered_by_few(f, k, shared, n_shared, &within, room + 2L * f->most,
+                                 edges + (f->most + 3) / 4);
     }
     return left;
 }
 
-/* Counts what few covers leave of the top part, and takes it off. */
-static bool subtract_few(subtraction *s, const int *list, int n_list)
+/* Counts what few covers leave of a polygon of a list. */
+static bool subtract_few(subtraction *s, const polygon_list *from, const polygon_item *own,
+                         const int *list, int n_list)
 {
     polygon_work *w = s->work;
-    const polygon_item *top = &w->parts.items[w->parts.n - 1];
-    int most = top->n + 3;
-    for (int k = 0; k < n_list; k++)
-        most += s->covers->items[list[k]].n;
-    if (!make_room(&w->spare, &w->spare_capacity, 2L * most * (n_list + 1), sizeof *w->spare))
+    few_covers f = {.covers = s->covers, .list = list, .most = own->n + 3};
+    int n_fours = 0;
+    for (int k = 0; k < n_list; k++) {
+        const int n = s->covers->items[list[k]].n;
+        f.most += n;
+        n_fours += (n + 3) / 4;
+    }
+    n_fours += (n_list + 1) * ((f.most + 3) / 4);
+    if (!grow_room(&w->spare, &w->spare_capacity, 2L * f.most * (n_list + 1), sizeof *w->spare) ||
+        !grow_room(&w->edges, &w->edge_capacity, n_fours, sizeof *w->edges))
         return false;
-    s->area += uncovered_by_few(s->covers, list, n_list, w->parts.points + top->first, top->n,
-                                w->spare, most);
-    polygon_list_drop(&w->parts);
+    four_edges *edges = w->edges;
+    for (int k = 0; k < n_list; k++) {
+        const polygon_item *cover = &s->covers->items[list[k]];
+        f.edges[k] = edges;
+        find_edges(s->covers->points + cover->first, cover->n, edges);
+        edges += (cover->n + 3) / 4;
+    }
+    s->area +=
+        uncovered_by_few(&f, n_list, from->points + own->first, own->n, &own->box, w->spare, edges);
     return true;
 }
 
@@ -456,7 +583,7 @@ static bool push_part(const subtraction *s, const point2 *ring, int n, polygon_t
 {
     polygon_work *w = s->work;
     point2 *room = polygon_list_room(&w->parts, n);
-    if (!room || !make_room(&w->tasks, &w->task_capacity, w->n_tasks + 1L, sizeof *w->tasks))
+    if (!room || !grow_room(&w->tasks, &w->task_capacity, w->n_tasks + 1L, sizeof *w->tasks))
         return false;
     memcpy(room, ring, (size_t)n * sizeof *ring);
     if (polygon_list_take(&w->parts, n, s->near)) w->tasks[w->n_tasks++] = task;
@@ -468,7 +595,7 @@ static bool take_off(const subtraction *s, int most)
 {
     polygon_work *w = s->work;
     const polygon_item *top = &w->parts.items[w->parts.n - 1];
-    if (!make_room(&w->spare, &w->spare_capacity, 3L * most, sizeof *w->spare)) return false;
+    if (!grow_room(&w->spare, &w->spare_capacity, 3L * most, sizeof *w->spare)) return false;
     memcpy(w->spare, w->parts.points + top->first, (size_t)top->n * sizeof *w->spare);
     polygon_list_drop(&w->parts);
     return true;
@@ -563,12 +690,17 @@ static bool do_task(subtraction *s)
     polygon_work *w = s->work;
     polygon_task task = w->tasks[--w->n_tasks];
     w->n_lists = task.first + task.n;
-    if (!make_room(&w->lists, &w->list_capacity, (long)w->n_lists + task.n, sizeof *w->lists))
+    if (!grow_room(&w->lists, &w->list_capacity, (long)w->n_lists + task.n, sizeof *w->lists))
         return false;
     const bool covered = !task.sifted && !sift(s, &task);
     if (covered) polygon_list_drop(&w->parts);
     if (covered) return true;
-    if (task.n <= FEW_COVERS) return subtract_few(s, w->lists + task.first, task.n);
+    if (task.n <= FEW_COVERS) {
+        const polygon_item *top = &w->parts.items[w->parts.n - 1];
+        const bool ok = subtract_few(s, &w->parts, top, w->lists + task.first, task.n);
+        polygon_list_drop(&w->parts);
+        return ok;
+    }
     bool done = false;
     task.sifted = false;
     if (task.n >= MANY_COVERS && !divide_in_halves(s, task, &done)) return false;
@@ -588,12 +720,14 @@ glint_status polygon_uncovered_area(const polygon_list *list, int subject,
     const polygon_item *item = &list->items[subject];
     polygon_list_clear(&work->parts);
     work->n_tasks = 0;
-    if (!make_room(&work->lists, &work->list_capacity, covers->n, sizeof *work->lists))
+    if (!grow_room(&work->lists, &work->list_capacity, covers->n, sizeof *work->lists))
         return error_no_memory(error);
     for (int k = 0; k < covers->n; k++)
         work->lists[k] = k;
-    bool ok =
-        push_part(&s, list->points + item->first, item->n, (polygon_task){0, covers->n, true});
+    const bool few = covers->n <= FEW_COVERS;
+    bool ok = few ? subtract_few(&s, list, item, work->lists, covers->n)
+                  : push_part(&s, list->points + item->first, item->n,
+                              (polygon_task){0, covers->n, true});
     while (ok && work->n_tasks > 0)
         ok = do_task(&s);
     *area = s.area;

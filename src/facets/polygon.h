@@ -82,6 +82,10 @@ void polygon_list_drop(polygon_list *list);
 polygon_relation polygon_relate(const polygon_list *list, int k, const polygon_list *covers,
                                 int cover);
 
+/* The same, but that only the cover's edges are tried: apart may be taken for crossed. */
+polygon_relation polygon_relate_to_edges(const polygon_list *list, int k,
+                                         const polygon_list *covers, int cover);
+
 /* Whether n >= 1 points are all outside the same edge of polygon k of a list: then their convex
  * hull shares no area with it. */
 bool polygon_has_aside(const polygon_list *list, int k, const point2 *points, int n);
@@ -92,7 +96,8 @@ typedef struct polygon_work {
     point2 *spare;
     struct polygon_task *tasks;
     int *lists;
-    int spare_capacity, n_tasks, task_capacity, n_lists, list_capacity;
+    struct four_edges *edges;
+    int spare_capacity, n_tasks, task_capacity, n_lists, list_capacity, edge_capacity;
 } polygon_work;
 
 void polygon_work_free(polygon_work *work);

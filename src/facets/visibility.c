@@ -136,14 +136,16 @@ static int trim(const box2 *box, const double *ring, int size, int n, double *ou
 /* How the search for covers ended. */
 typedef enum outcome { PARTLY_COVERED, ALL_COVERED, NO_MEMORY } outcome;
 
-/* Takes in a cover that was written behind the list, if it covers any of the facet. */
-static outcome take_cover(const target *t, visibility_scratch *s, int n)
+/* Takes in a cover that was written behind the list, if it covers any of the facet. in_shaft: it is
+ * known not to be outside one of the facet's edges. */
+static outcome take_cover(const target *t, visibility_scratch *s, int n, bool in_shaft)
 {
     const polygon_item *outline = &s->outline.items[0];
     double *points = &s->covers.points[s->covers.n_points].x;
     if (n > WORTH_TRIMMING) n = trim(&outline->box, points, 2, n, points);
     if (!polygon_list_take(&s->covers, n, t->near_m)) return PARTLY_COVERED;
-    const polygon_relation relation = polygon_relate(&s->outline, 0, &s->covers, s->covers.n - 1);
+    const polygon_relation relation = (in_shaft ? polygon_relate_to_edges : polygon_relate)(
+        &s->outline, 0, &s->covers, s->covers.n - 1);
     if (relation == POLYGON_APART) polygon_list_drop(&s->covers);
     return relation == POLYGON_COVERED ? ALL_COVERED : PARTLY_COVERED;
 }
@@ -155,7 +157,7 @@ static outcome cover_by_ring(const target *t, visibility_scratch *s, const doubl
     if (!room) return NO_MEMORY;
     for (int k = 0; k < n; k++)
         room[k] = in_plane(t, ring[k][0], ring[k][1]);
-    return take_cover(t, s, n);
+    return take_cover(t, s, n, true);
 }
 
 /* The part of a polygon before the facet's plane. */
@@ -173,7 +175,7 @@ static outcome cover_by_part(const target *t, visibility_scratch *s, const doubl
             room[count++] = crossing(t, p, q, height_m, next_m);
         height_m = next_m;
     }
-    return take_cover(t, s, count);
+    return take_cover(t, s, count, false);
 }
 
 /* Heights of a body's corners over the facet's plane, in scratch.heights_m; returns the greatest.
@@ -197,7 +199,7 @@ static outcome cover_by_points(const target *t, visibility_scratch *s, int n)
     if (n == 0 || polygon_has_aside(&s->outline, 0, s->points, n)) return PARTLY_COVERED;
     point2 *room = polygon_list_room(&s->covers, n + 1);
     if (!room) return NO_MEMORY;
-    return take_cover(t, s, polygon_hull(s->points, n, room));
+    return take_cover(t, s, polygon_hull(s->points, n, room), true);
 }
 
 /* Appends to n points those at which a body's edges go through the facet's plane.
@@ -237,7 +239,7 @@ static outcome cover_by_sections(const visibility *plan, const target *t, visibi
             mat_vec(axes, plan->section_points[own->first + c], p);
             room[c] = in_plane(t, p[0] + shift_m[0], p[1] + shift_m[1]);
         }
-        const outcome found = take_cover(t, s, own->n);
+        const outcome found = take_cover(t, s, own->n, false);
         if (found != PARTLY_COVERED) return found;
     }
     return PARTLY_COVERED;
