@@ -171,6 +171,8 @@ typedef struct scene {
     double i[3], r[3], e1[3], e2[3];
     double scale; /* tangent of the disc's radius */
     double area_m2;
+    double horizon; /* only points with x above it are up, -1 or less: all of them */
+    double middle;  /* x half way up what is up */
 } scene;
 
 static void look_at(scene *s, const double i[3], const double r[3])
@@ -298,11 +300,14 @@ static double asin_within(double x)
     return asin(fmin(fmax(x, -1.0), 1.0));
 }
 
-/* Integrates over the disc along two orthogonal axes, with the lobe's top at `top` in these axes,
- * and its width along them given. x = sin psi, y = cos psi sin chi: then nothing is singular at the
- * rim. */
+/* Integrates over the disc along two orthogonal axes: lines in the direction in which the lobe
+ * changes slowest, one beside the other in that in which it changes fastest. `top`, `width`, `reach`:
+ * where it is highest on the fast axis, its width there in radii, where it is narrowest, and how
+ * many of these it reaches at most; each line looks for its own top and width, from slow_top. Place
+ * x = sin psi, on the line y = cos psi sin chi: then nothing is singular at the rim. */
 typedef struct patch {
-    double along[2], top[2], width[2], reach;
+    double fast[2], slow[2]; /* the axes, unit */
+    double top, width, reach, slow_top;
 } patch;
 
 /* Points of a rule over the panels of a line between -c and c, in the angle whose sine is the place
@@ -328,78 +333,173 @@ static void fill_rule(const panels *line, double c, line_rule *out)
     }
 }
 
+static void place_on(const patch *p, double fast, double slow, double out[2])
+{
+    for (int j = 0; j < 2; j++)
+        out[j] = fast * p->fast[j] + slow * p->slow[j];
+}
+
+/* Where the lobe is highest on a line, and how wide it is there, as it looks from the point of the
+ * line between lo and hi that is next to the first guess in *top. */
+static void find_on_line(const scene *s, const patch *p, double place, double lo, double hi,
+                         double *top, double *width)
+{
+    lean l;
+    double at[2], along[2];
+    const double y = fmin(fmax(*top, lo), hi);
+    place_on(p, place, y, at);
+    *width = HUGE_VAL;
+    if (!lean_at(s, at[0], at[1], &l)) return;
+    for (int j = 0; j < 2; j++)
+        along[j] = l.turn[j][0] * p->slow[0] + l.turn[j][1] * p->slow[1];
+    const double square = along[0] * along[0] + along[1] * along[1];
+    if (!(square > 0.0)) return;
+    *top = y - (l.at[0] * along[0] + l.at[1] * along[1]) / square;
+    *width = 1.0 / sqrt(square);
+}
+
+/* The part of a line that is up; false where none of it is. */
+static bool find_up(const scene *s, const patch *p, double place, double *lo, double *hi)
+{
+    static const double LEVEL = 1e-6; /* so level is a line that is up as a whole, or not */
+    if (s->horizon <= -1.0) return true;
+    const double above = place * p->fast[0] - s->horizon, rise = p->slow[0];
+    if (fabs(rise) < LEVEL) return above > 0.0;
+    if (rise > 0.0)
+        *lo = fmax(*lo, -above / rise);
+    else
+        *hi = fmin(*hi, -above / rise);
+    return *lo < *hi;
+}
+
 static void push_line(const scene *s, const patch *p, double psi, double weight)
 {
     const double x = sin(psi), c = cos(psi);
-    const panels line = cut(-c, c, p->top[1], p->width[1], p->reach);
+    double lo = -c, hi = c, top = p->slow_top, width;
+    if (!find_up(s, p, x, &lo, &hi)) return;
+    find_on_line(s, p, x, lo, hi, &top, &width);
+    const panels line = cut(lo, hi, top, width, p->reach);
     line_rule points;
     fill_rule(&line, c, &points);
     for (int k = 0; k < points.n; k++) {
+        double at[2];
         const double y = c * sin(points.angle[k]);
         const double bright = brightness_at(s->disc->limb_darkened, x * x + y * y);
-        push_point(s, x * p->along[0] - y * p->along[1], x * p->along[1] + y * p->along[0],
+        place_on(p, x, y, at);
+        push_point(s, at[0], at[1],
                    weight * points.weight[k] * c * cos(points.angle[k]) * bright);
     }
 }
 
 static void push_patch(const scene *s, const patch *p)
 {
-    const panels line = cut(-1.0, 1.0, p->top[0], p->width[0], p->reach);
+    const panels line = cut(-1.0, 1.0, p->top, p->width, p->reach);
     line_rule points;
     fill_rule(&line, 1.0, &points);
     for (int k = 0; k < points.n; k++)
         push_line(s, p, points.angle[k], points.weight[k] * cos(points.angle[k]) / PI);
 }
 
-/* Where the disc sets behind the facet's plane its light is that of a point at the mean height of
- * what is still up: exact where g goes with the cosine of incidence, as it does for most surfaces
- * so low. With the middle at x radii, the mean of max(0, x + y) over a uniform disc is A below;
+/* Mean over a disc that sets of the height, as a cosine to the normal, of its points; 0 of those that
+ * have set. With the middle at x radii, the mean of max(0, x + y) over a uniform disc is `a` below;
  * over a part of it whose brightness goes with mu, the polynomial. */
-static void push_set(const scene *s)
+static double mean_height(const scene *s)
 {
     const double u = s->disc->limb_darkened ? SUN_LIMB_DARKENING : 0.0;
     const double x = fmin(1.0, s->i[2] / s->scale), x2 = x * x;
     const double a = (sqrt(fmax(0.0, 1.0 - x2)) * (2.0 + x2) / 3.0 + x * (0.5 * PI + asin(x))) / PI;
     const double polynomial = 0.125 + x / 3.0 + x2 / 4.0 - x2 * x2 / 24.0;
-    const double up = s->scale * ((1.0 - u) * a + u * polynomial) / (1.0 - u / 3.0);
+    return s->scale * ((1.0 - u) * a + u * polynomial) / (1.0 - u / 3.0);
+}
+
+/* Where the disc sets behind the facet's plane its light is that of a point at its mean height:
+ * exact where g goes with the cosine of incidence, as it does for most surfaces so low. */
+static void push_set(const scene *s)
+{
+    const double up = mean_height(s);
     const double level = sqrt((1.0 - up * up) / (s->i[0] * s->i[0] + s->i[1] * s->i[1]));
     const double i[3] = {level * s->i[0], level * s->i[1], up};
     batch_push(s->batch, s->sample->lane, i, s->r, 0.0, 0.0, s->area_m2);
 }
 
-/* Finds the point, in radii, at which the bisector does not lean: the lobe's top. Its axes there.
- */
-static bool find_top(const scene *s, double top[2], ellipse *shape)
+/* Brings a point, in radii, to the disc: along the slow axis of the lobe as far as that does, and up
+ * from the horizon, where a lobe may have no width. */
+static void bring_to_disc(const scene *s, const double fast[2], double point[2])
+{
+    static const double ABOVE = 0.1; /* part of the height of what is up */
+    const double f = fmin(fmax(point[0] * fast[0] + point[1] * fast[1], -1.0), 1.0);
+    const double most = sqrt(1.0 - f * f);
+    const double w = fmin(fmax(point[1] * fast[0] - point[0] * fast[1], -most), most);
+    point[0] = f * fast[0] - w * fast[1];
+    point[1] = f * fast[1] + w * fast[0];
+    if (s->horizon > -1.0)
+        point[0] = fmax(point[0], s->horizon + ABOVE * (1.0 - s->horizon));
+}
+
+/* Where the lobe's top is, in radii: the source in the mirror direction of the observer. False where
+ * that is far away. */
+static bool find_mirrored(const scene *s, double top[2])
 {
     static const double FAR = 50.0; /* radii: lobes of that reach are not narrow */
-    top[0] = top[1] = 0.0;
-    for (int step = 0; step < 4; step++) {
+    const double mirrored[3] = {-s->r[0], -s->r[1], s->r[2]};
+    const double along = dot3(mirrored, s->i) * s->scale;
+    if (!(along > 0.0)) return false;
+    top[0] = dot3(mirrored, s->e1) / along;
+    top[1] = dot3(mirrored, s->e2) / along;
+    const double far = hypot(top[0], top[1]);
+    if (far > FAR) top[0] *= FAR / far, top[1] *= FAR / far;
+    return true;
+}
+
+/* Finds the lobe's top, in radii, and its axes, both as they look from `from`, the point of the disc
+ * next to the top: at grazing incidence a lobe whose top is some radii away is many times as wide on
+ * the disc as it is there. */
+static bool find_top(const scene *s, double top[2], double from[2], ellipse *shape)
+{
+    static const double UP[2] = {1.0, 0.0};
+    if (!find_mirrored(s, top)) return false;
+    for (int step = 0; step < 3; step++) {
         lean l;
-        if (!lean_at(s, top[0], top[1], &l)) return false;
+        from[0] = top[0], from[1] = top[1];
+        bring_to_disc(s, step > 0 ? shape->along : UP, from);
+        if (!lean_at(s, from[0], from[1], &l)) return false;
         *shape = ellipse_of(&l);
         const double det = l.turn[0][0] * l.turn[1][1] - l.turn[0][1] * l.turn[1][0];
         if (!(fabs(det) > 1e-9 * shape->size[0] * shape->size[0])) return step > 0;
-        top[0] -= (l.turn[1][1] * l.at[0] - l.turn[0][1] * l.at[1]) / det;
-        top[1] -= (l.turn[0][0] * l.at[1] - l.turn[1][0] * l.at[0]) / det;
-        const double far = hypot(top[0], top[1]);
-        if (far > FAR) top[0] *= FAR / far, top[1] *= FAR / far;
+        top[0] = from[0] - (l.turn[1][1] * l.at[0] - l.turn[0][1] * l.at[1]) / det;
+        top[1] = from[1] - (l.turn[0][0] * l.at[1] - l.turn[1][0] * l.at[0]) / det;
     }
     return true;
 }
 
+/* Smallest and largest height of the bisector over what is up of the disc, over that at a point. */
+static void find_heights(const scene *s, const double from[2], double *low, double *high)
+{
+    double i[3];
+    point_at(s, from[0], from[1], i);
+    const double here = i[2] + s->r[2], swing = s->scale * s->e1[2];
+    *low = fmin(1.0, (fmax(s->i[2] - swing, 0.0) + s->r[2]) / here);
+    *high = fmax(1.0, (s->i[2] + swing + s->r[2]) / here);
+}
+
 static void push_narrow(const scene *s)
 {
-    double top[2];
+    double top[2], from[2];
     ellipse shape = {{1.0, 0.0}, {0.0, 0.0}};
-    if (!find_top(s, top, &shape)) {
+    if (!find_top(s, top, from, &shape)) {
         push_rule(s, &s->disc->rules[DISC_FOUR]);
         return;
     }
-    const patch p = {.along = {shape.along[0], shape.along[1]},
-                     .top = {top[0] * shape.along[0] + top[1] * shape.along[1],
-                             top[1] * shape.along[0] - top[0] * shape.along[1]},
-                     .width = {1.0 / shape.size[0], 1.0 / shape.size[1]},
-                     .reach = s->sample->shape->reach};
+    /* the width goes with the bisector's height, which varies over the disc where all is grazing */
+    double low, high;
+    find_heights(s, from, &low, &high);
+    const double fast[2] = {shape.along[0], shape.along[1]}, slow[2] = {-fast[1], fast[0]};
+    const patch p = {.fast = {fast[0], fast[1]},
+                     .slow = {slow[0], slow[1]},
+                     .top = top[0] * fast[0] + top[1] * fast[1],
+                     .slow_top = top[0] * slow[0] + top[1] * slow[1],
+                     .width = low / shape.size[0],
+                     .reach = s->sample->shape->reach * high / low};
     push_patch(s, &p);
 }
 
@@ -454,7 +554,7 @@ static disc_rule_kind rule_of(const scene *s)
     double h[3];
     const lobe_shape *shape = s->sample->shape;
     add3(s->i, s->r, h);
-    const bool has_lean = lean_at(s, 0.0, 0.0, &l);
+    const bool has_lean = lean_at(s, s->middle, 0.0, &l);
     const double size = has_lean ? largest_size(&l) : 0.0;
     const double distance = has_lean ? sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]) : 0.0;
     const bool past = (distance - size) * norm3(h) > 2.0 * shape->end;
@@ -477,10 +577,13 @@ void disc_push(batch *b, const disc_sample *sample, const double i[3], const dou
         return;
     }
     if (s.i[2] <= -s.scale) return; /* all of it has set */
+    const bool sets = s.i[2] < s.scale;
+    s.horizon = sets ? -s.i[2] / (s.scale * s.e1[2]) : -1.0;
+    s.middle = sets ? 0.5 * (1.0 + s.horizon) : 0.0;
     const disc_rule_kind rule = rule_of(&s);
-    if ((int)rule == DISC_NARROW)
+    if ((int)rule == DISC_NARROW || (sets && rule != DISC_CENTRE))
         push_narrow(&s);
-    else if (s.i[2] < s.scale)
+    else if (sets)
         push_set(&s);
     else
         push_rule(&s, &s.disc->rules[rule]);
