@@ -207,15 +207,21 @@ typedef struct lean {
 
 static bool lean_at(const scene *s, double x, double y, lean *out)
 {
-    double i[3], h[3];
+    double i[3], h[3], way[2][3];
     point_at(s, x, y, i);
     add3(i, s->r, h);
     if (!(h[2] > 0.0)) return false;
+    /* of i, unit all the way: matters where all is grazing */
+    const double length = dot3(i, s->i), bend = s->scale * length;
+    for (int j = 0; j < 3; j++) {
+        way[0][j] = s->scale * length * (s->e1[j] - bend * x * i[j]);
+        way[1][j] = s->scale * length * (s->e2[j] - bend * y * i[j]);
+    }
     for (int j = 0; j < 2; j++) {
         const double slope = h[j] / h[2], narrow = 1.0 / s->sample->shape->width[j];
         out->at[j] = slope * narrow;
-        out->turn[j][0] = s->scale * (s->e1[j] - slope * s->e1[2]) / h[2] * narrow;
-        out->turn[j][1] = s->scale * (s->e2[j] - slope * s->e2[2]) / h[2] * narrow;
+        for (int k = 0; k < 2; k++)
+            out->turn[j][k] = (way[k][j] - slope * way[k][2]) / h[2] * narrow;
     }
     return true;
 }
@@ -456,12 +462,12 @@ static bool find_mirrored(const scene *s, double top[2])
  * the disc as it is there. */
 static bool find_top(const scene *s, double top[2], double from[2], ellipse *shape)
 {
-    static const double UP[2] = {1.0, 0.0};
+    static const double LEVEL[2] = {0.0, 1.0}; /* as a rule the fast one where all is grazing */
     if (!find_mirrored(s, top)) return false;
     for (int step = 0; step < 3; step++) {
         lean l;
         from[0] = top[0], from[1] = top[1];
-        bring_to_disc(s, step > 0 ? shape->along : UP, from);
+        bring_to_disc(s, step > 0 ? shape->along : LEVEL, from);
         if (!lean_at(s, from[0], from[1], &l)) return false;
         *shape = ellipse_of(&l);
         const double det = l.turn[0][0] * l.turn[1][1] - l.turn[0][1] * l.turn[1][0];
