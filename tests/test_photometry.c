@@ -3,6 +3,7 @@
 #include "lightcurve/noise.h"
 #include "lightcurve/photometry.h"
 #include "run_rows.h"
+#include "table.h"
 
 /* -------------------------------------------------------------------- bands */
 
@@ -52,6 +53,33 @@ START_TEST(test_photometry_photons_of_magnitude_zero_agree_with_another_calibrat
     /* the AB system needs no star: 3631 Jy / h */
     assert_rel(band_photons_m2_s(band_named("V"), SYSTEM_AB), 0.16 * 3631 * 1.50919018e7, 1e-8);
     ck_assert(isnan(band_photons_m2_s(band_named("lsst_g"), SYSTEM_AB)));
+}
+END_TEST
+
+/* The integral over ln(wavelength) of the published response, by trapezoids; its peak counts as 1.
+ * 0.4 % is half a unit of the last digit that is kept. */
+START_TEST(test_photometry_widths_of_sdss_bands_are_those_of_their_response)
+{
+    csv_table table = table_open(path_in(TEST_DATA_DIR, "sdss_response.csv"));
+    int n_bands = 0;
+    for (long row = 0, first = 0; row < table.n_rows; row++) {
+        const char *name = table_text(&table, row, "band");
+        const bool last = row + 1 == table.n_rows ||
+                          strcmp(table_text(&table, row + 1, "band"), name) != 0;
+        if (!last) continue;
+        double sum = 0;
+        for (long k = first; k < row; k++)
+            sum += 0.5 *
+                   (table_number(&table, k, "response") + table_number(&table, k + 1, "response")) *
+                   log(table_number(&table, k + 1, "wavelength_angstrom") /
+                       table_number(&table, k, "wavelength_angstrom"));
+        assert_rel(band_photons_m2_s(band_named(name), SYSTEM_AB),
+                   sum / table_number(&table, row, "peak") * 3631 * 1.50919018e7, 4e-3);
+        first = row + 1;
+        n_bands++;
+    }
+    ck_assert_int_eq(n_bands, 5);
+    csv_free(&table);
 }
 END_TEST
 
@@ -428,6 +456,7 @@ int main(void)
     TCase *bands = tcase_create("bands");
     tcase_add_test(bands, test_photometry_bands_have_the_published_magnitudes_of_the_sun);
     tcase_add_test(bands, test_photometry_photons_of_magnitude_zero_agree_with_another_calibration);
+    tcase_add_test(bands, test_photometry_widths_of_sdss_bands_are_those_of_their_response);
     suite_add_tcase(suite, bands);
     TCase *airmass = tcase_create("airmass");
     tcase_add_checked_fixture(airmass, folder_make, folder_remove);
