@@ -64,8 +64,8 @@ START_TEST(test_photometry_widths_of_sdss_bands_are_those_of_their_response)
     int n_bands = 0;
     for (long row = 0, first = 0; row < table.n_rows; row++) {
         const char *name = table_text(&table, row, "band");
-        const bool last = row + 1 == table.n_rows ||
-                          strcmp(table_text(&table, row + 1, "band"), name) != 0;
+        const bool last =
+            row + 1 == table.n_rows || strcmp(table_text(&table, row + 1, "band"), name) != 0;
         if (!last) continue;
         double sum = 0;
         for (long k = first; k < row; k++)

@@ -307,10 +307,11 @@ static double asin_within(double x)
 }
 
 /* Integrates over the disc along two orthogonal axes: lines in the direction in which the lobe
- * changes slowest, one beside the other in that in which it changes fastest. `top`, `width`, `reach`:
- * where it is highest on the fast axis, its width there in radii, where it is narrowest, and how
- * many of these it reaches at most; each line looks for its own top and width, from slow_top. Place
- * x = sin psi, on the line y = cos psi sin chi: then nothing is singular at the rim. */
+ * changes slowest, one beside the other in that in which it changes fastest. `top`, `width`,
+ * `reach`: where it is highest on the fast axis, its width there in radii, where it is narrowest,
+ * and how many of these it reaches at most; each line looks for its own top and width, from
+ * slow_top. Place x = sin psi, on the line y = cos psi sin chi: then nothing is singular at the
+ * rim. */
 typedef struct patch {
     double fast[2], slow[2]; /* the axes, unit */
     double top, width, reach, slow_top;
@@ -392,8 +393,7 @@ static void push_line(const scene *s, const patch *p, double psi, double weight)
         const double y = c * sin(points.angle[k]);
         const double bright = brightness_at(s->disc->limb_darkened, x * x + y * y);
         place_on(p, x, y, at);
-        push_point(s, at[0], at[1],
-                   weight * points.weight[k] * c * cos(points.angle[k]) * bright);
+        push_point(s, at[0], at[1], weight * points.weight[k] * c * cos(points.angle[k]) * bright);
     }
 }
 
@@ -406,9 +406,9 @@ static void push_patch(const scene *s, const patch *p)
         push_line(s, p, points.angle[k], points.weight[k] * cos(points.angle[k]) / PI);
 }
 
-/* Mean over a disc that sets of the height, as a cosine to the normal, of its points; 0 of those that
- * have set. With the middle at x radii, the mean of max(0, x + y) over a uniform disc is `a` below;
- * over a part of it whose brightness goes with mu, the polynomial. */
+/* Mean over a disc that sets of the height, as a cosine to the normal, of its points; 0 of those
+ * that have set. With the middle at x radii, the mean of max(0, x + y) over a uniform disc is `a`
+ * below; over a part of it whose brightness goes with mu, the polynomial. */
 static double mean_height(const scene *s)
 {
     const double u = s->disc->limb_darkened ? SUN_LIMB_DARKENING : 0.0;
@@ -428,8 +428,8 @@ static void push_set(const scene *s)
     batch_push(s->batch, s->sample->lane, i, s->r, 0.0, 0.0, s->area_m2);
 }
 
-/* Brings a point, in radii, to the disc: along the slow axis of the lobe as far as that does, and up
- * from the horizon, where a lobe may have no width. */
+/* Brings a point, in radii, to the disc: along the slow axis of the lobe as far as that does, and
+ * up from the horizon, where a lobe may have no width. */
 static void bring_to_disc(const scene *s, const double fast[2], double point[2])
 {
     static const double ABOVE = 0.1; /* part of the height of what is up */
@@ -438,12 +438,11 @@ static void bring_to_disc(const scene *s, const double fast[2], double point[2])
     const double w = fmin(fmax(point[1] * fast[0] - point[0] * fast[1], -most), most);
     point[0] = f * fast[0] - w * fast[1];
     point[1] = f * fast[1] + w * fast[0];
-    if (s->horizon > -1.0)
-        point[0] = fmax(point[0], s->horizon + ABOVE * (1.0 - s->horizon));
+    if (s->horizon > -1.0) point[0] = fmax(point[0], s->horizon + ABOVE * (1.0 - s->horizon));
 }
 
-/* Where the lobe's top is, in radii: the source in the mirror direction of the observer. False where
- * that is far away. */
+/* Where the lobe's top is, in radii: the source in the mirror direction of the observer. False
+ * where that is far away. */
 static bool find_mirrored(const scene *s, double top[2])
 {
     static const double FAR = 50.0; /* radii: lobes of that reach are not narrow */
@@ -457,9 +456,9 @@ static bool find_mirrored(const scene *s, double top[2])
     return true;
 }
 
-/* Finds the lobe's top, in radii, and its axes, both as they look from `from`, the point of the disc
- * next to the top: at grazing incidence a lobe whose top is some radii away is many times as wide on
- * the disc as it is there. */
+/* Finds the lobe's top, in radii, and its axes, both as they look from `from`, the point of the
+ * disc next to the top: at grazing incidence a lobe whose top is some radii away is many times as
+ * wide on the disc as it is there. */
 static bool find_top(const scene *s, double top[2], double from[2], ellipse *shape)
 {
     static const double LEVEL[2] = {0.0, 1.0}; /* as a rule the fast one where all is grazing */
