@@ -348,13 +348,13 @@ static void place_on(const patch *p, double fast, double slow, double out[2])
 
 /* Where the lobe is highest on a line, and how wide it is there, as it looks from the point of the
  * line between lo and hi that is next to the first guess in *top. */
-static void find_on_line(const scene *s, const patch *p, double place, double lo, double hi,
+static void find_on_line(const scene *s, const patch *p, double across, double lo, double hi,
                          double *top, double *width)
 {
     lean l;
     double at[2], along[2];
     const double y = fmin(fmax(*top, lo), hi);
-    place_on(p, place, y, at);
+    place_on(p, across, y, at);
     *width = HUGE_VAL;
     if (!lean_at(s, at[0], at[1], &l)) return;
     for (int j = 0; j < 2; j++)
@@ -366,11 +366,11 @@ static void find_on_line(const scene *s, const patch *p, double place, double lo
 }
 
 /* The part of a line that is up; false where none of it is. */
-static bool find_up(const scene *s, const patch *p, double place, double *lo, double *hi)
+static bool find_up(const scene *s, const patch *p, double across, double *lo, double *hi)
 {
     static const double LEVEL = 1e-6; /* so level is a line that is up as a whole, or not */
     if (s->horizon <= -1.0) return true;
-    const double above = place * p->fast[0] - s->horizon, rise = p->slow[0];
+    const double above = across * p->fast[0] - s->horizon, rise = p->slow[0];
     if (fabs(rise) < LEVEL) return above > 0.0;
     if (rise > 0.0)
         *lo = fmax(*lo, -above / rise);
