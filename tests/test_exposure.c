@@ -258,6 +258,46 @@ START_TEST(test_exposure_light_from_before_the_horizon_counts)
 }
 END_TEST
 
+/* Light in the first or the last thousandth of an exposure: the satellite sinks below 60 deg so
+ * soon after it begins, or next to its middle, where two parts of the integral meet. */
+START_TEST(test_exposure_light_at_its_very_ends_counts)
+{
+    static const double LIT_S[] = {0.05, 29.95, 30.05, 59.97}; /* of 60 s */
+    const char *parts[N_PARTS];
+    memcpy(parts, SOUND, sizeof parts);
+    parts[PART_OBSERVER] = "[observer]\nlatitude_deg = 48.2\nlongitude_deg = 16.37\n"
+                           "min_elevation_deg = 60\n";
+    parts[PART_ORBIT] = "[orbit]\ncircular = { height_km = 780, inclination_deg = 98.6, "
+                        "raan_deg = 80, argument_of_latitude_deg = 132, "
+                        "epoch = 2025-07-25T20:37:00Z }\n";
+    run_rows samples = run_with(parts, PART_TIME,
+                                "[time]\nstart = 2025-07-25T20:36:46Z\nduration_s = 68\n"
+                                "step_s = 0.01\n");
+    size_t last = samples.n - 1;
+    while (!(samples.rows[last].flux_ratio[0] > 0))
+        last--;
+    const double above = samples.rows[last].elevation_rad - 60 * DEG;
+    const double sunk_s = 0.01 * ((double)last + above / (samples.rows[last].elevation_rad -
+                                                          samples.rows[last + 1].elevation_rad));
+    for (int k = 0; k < 4; k++) {
+        char text[256];
+        const double middle_s = 46 + sunk_s - LIT_S[k] + 30; /* after 20:36 */
+        double sum = 0;
+        snprintf(text, sizeof text,
+                 "[time]\nstart = 2025-07-25T20:%02d:%09.6fZ\nduration_s = 0\nstep_s = 1\n"
+                 "exposure_s = 60\n",
+                 36 + (int)(middle_s / 60), fmod(middle_s, 60));
+        run_rows mean = run_with(parts, PART_TIME, text);
+        const size_t n = (size_t)(LIT_S[k] / 0.01 + 0.5), from = last + 1 - n;
+        for (size_t j = from; j <= last; j++) /* each stands for the step about it */
+            sum += samples.rows[j].flux_ratio[0] / (double)n;
+        assert_rel(mean.rows[0].flux_ratio[0], sum * LIT_S[k] / 60, 2e-4);
+        rows_free(&mean);
+    }
+    rows_free(&samples);
+}
+END_TEST
+
 /* Its time lies 0.09 deg below the horizon, its light above: the air is that at the horizon, which
  * Kasten and Young's formula has at 1/(0.50572 x 6.07995^-1.6364). */
 START_TEST(test_exposure_centred_below_the_horizon_is_dimmed_as_at_the_horizon)
@@ -320,6 +360,7 @@ int main(void)
     tcase_add_test(all, test_exposure_two_halves_are_the_whole);
     tcase_add_test(all, test_exposure_threads_give_the_same_bits);
     tcase_add_test(all, test_exposure_light_from_before_the_horizon_counts);
+    tcase_add_test(all, test_exposure_light_at_its_very_ends_counts);
     tcase_add_test(all, test_exposure_centred_below_the_horizon_is_dimmed_as_at_the_horizon);
     tcase_add_test(all, test_exposure_of_a_satellite_that_turns_too_fast_is_an_error);
     suite_add_tcase(suite, all);
