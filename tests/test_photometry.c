@@ -355,6 +355,26 @@ START_TEST(test_photometry_noise_of_a_row_is_that_of_the_telescope)
 }
 END_TEST
 
+/* An exposure centred below the horizon, whose light came from above: through the air at the
+ * horizon, 37.92 by Kasten and Young's formula, whose share of the scatter is Young's 1e-5 C^2
+ * D^(-4/3) X^3 exp(-2 h/8000 m)/T. */
+START_TEST(test_photometry_light_from_the_horizon_scintillates_as_there)
+{
+    const double magnitude = -30; /* scintillation alone */
+    glint_scenario *s = read_scope(SCOPE);
+    s->telescope.scintillation = 1.5;
+    const glint_row row = {.magnitude = &magnitude,
+                           .flags = GLINT_BELOW_HORIZON,
+                           .elevation_rad = -0.1 * DEG,
+                           .has_site = true,
+                           .angular_rate_rad_s = 1 * ARCSEC};
+    const double airmass = 1 / (0.50572 * pow(6.07995, -1.6364));
+    const double variance = 2.25e-5 * pow(0.5, -4.0 / 3) * pow(airmass, 3) / 0.1;
+    assert_rel(noise_row_snr(s, &row, 0), 1 / sqrt(variance), 1e-4);
+    glint_scenario_free(s);
+}
+END_TEST
+
 /* Against directions a second apart. */
 START_TEST(test_photometry_angular_rate_is_that_of_the_directions)
 {
@@ -478,6 +498,7 @@ int main(void)
     tcase_add_test(noise, test_photometry_scintillation_is_near_youngs_own_formula);
     tcase_add_test(noise, test_photometry_bright_and_faint_limits_scale_as_they_must);
     tcase_add_test(noise, test_photometry_noise_of_a_row_is_that_of_the_telescope);
+    tcase_add_test(noise, test_photometry_light_from_the_horizon_scintillates_as_there);
     tcase_add_test(noise, test_photometry_angular_rate_is_that_of_the_directions);
     tcase_add_test(noise, test_photometry_wrong_telescopes_are_refused_at_their_place);
     suite_add_tcase(suite, noise);

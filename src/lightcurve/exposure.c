@@ -282,10 +282,7 @@ static void replace_row(const exposure *x, double *sums, int k, const photometry
     double *material = rows->share_material + k * m->n_materials;
     double *component = rows->share_component + k * m->n_components;
     bool bright = false;
-    /* Centred just below the horizon, what light there is came through the air at the horizon. */
-    const double airmass = row->flags & GLINT_BELOW_HORIZON && row->elevation_rad < 0
-                               ? airmass_of(s, 0)
-                               : row->airmass;
+    const double airmass = airmass_of_light(s, row);
     for (int b = 0; b < s->n_bands; b++) {
         flux[b] = sums[b] / s->exposure_s;
         bright = bright || flux[b] > 0;
