@@ -133,12 +133,17 @@ if(GLINT_PYTHON)
     # Ephemerides and passes against sgp4, Skyfield and ERFA for Python.
     add_test(NAME astronomy COMMAND ${GLINT_PYTHON}
         ${CMAKE_CURRENT_SOURCE_DIR}/test_astronomy.py $<TARGET_FILE:glint_program>)
+    # Earthshine and magnitudes of whole runs against sums by numpy.
+    add_test(NAME light COMMAND ${GLINT_PYTHON}
+        ${CMAKE_CURRENT_SOURCE_DIR}/test_light.py $<TARGET_FILE:glint_program>)
 else()
     add_test(NAME ecsv COMMAND sh -c "echo 'SKIPPED: tables read by astropy: no python3'; exit 77")
     add_test(NAME astronomy COMMAND sh -c
         "echo 'SKIPPED: ephemerides against other programs: no python3'; exit 77")
+    add_test(NAME light COMMAND sh -c
+        "echo 'SKIPPED: light against sums by numpy: no python3'; exit 77")
 endif()
-set_tests_properties(ecsv astronomy PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(ecsv astronomy light PROPERTIES SKIP_RETURN_CODE 77)
 
 # Against the sky, and against another study of it; formulas written down a second time. 77: the
 # reference data are not there.
