@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "base/param.h"
 
+#include <stdint.h>
+
 #define BRDF_EDGE 1e-12 /* cosine below which a facet is edge-on (physics page, section 6) */
 
 enum {
@@ -18,12 +20,26 @@ enum {
     BRDF_MAX_COEF = 24    /* numbers that a prepared model keeps */
 };
 
+/* Facets that the kernel shows to its caller before it adds them, because the lanes that the caller
+ * cares for are rare, and the kernel has their cosines at hand. A lane is shown where cr > 0, ci >
+ * -low, and one of: ci < low, H.n > near, H.n < graze. H.n and the cosines are good to 1e-15. */
+typedef struct brdf_watch {
+    _Alignas(64) double low[BRDF_TILE];          /* at least 0; below 0: this lane never */
+    double near[BRDF_TILE], graze[BRDF_TILE]; /* read where has_lobe */
+    bool has_lobe;                               /* false: ci alone counts */
+    void *finder;                                /* for `found`; borrowed */
+    /* Told of a facet with such lanes, also if no lane is lit. Returns the lanes, bit k for lane k,
+     * that the caller has seen to himself: the kernel leaves them out. */
+    uint32_t (*found)(void *finder, int facet);
+} brdf_watch;
+
 /* Facets of one material in one component: structure of arrays, component coordinates.
  * All arrays have n entries; borrowed. */
 typedef struct brdf_facets {
     int n;
     const double *normal[3], *tangent[3], *bitangent[3]; /* unit, orthogonal, right-handed */
     const double *area;                                  /* m^2 */
+    const brdf_watch *watch;                             /* borrowed; NULL: none */
 } brdf_facets;
 
 /* BRDF_TILE pairs of directions in the component's frame, all of them usable numbers (spare lanes

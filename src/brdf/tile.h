@@ -47,6 +47,22 @@ static inline bool tile_cosines(const brdf_facets *facets, int f, const brdf_lig
     return any != 0;
 }
 
+/* Whether the facet is one to show: see brdf_watch. */
+static inline bool tile_is_watched(const brdf_watch *watch, const double ci[BRDF_TILE],
+                                   const double cr[BRDF_TILE])
+{
+    int64_t any = 0;
+    for (int k = 0; k < BRDF_TILE && !watch->has_lobe; k++)
+        any |= -(int64_t)(fabs(ci[k]) < watch->low[k]) & -(int64_t)(cr[k] > 0.0);
+    for (int k = 0; k < BRDF_TILE && watch->has_lobe; k++) {
+        const double hn = ci[k] + cr[k];
+        const int64_t here = -(int64_t)(ci[k] > -watch->low[k]) & -(int64_t)(cr[k] > 0.0);
+        any |= here & (-(int64_t)(ci[k] < watch->low[k]) | -(int64_t)(hn > watch->near[k]) |
+                       -(int64_t)(hn < watch->graze[k]));
+    }
+    return any != 0;
+}
+
 #endif
 
 static double brdf_eval(const double *coef, const double i[3], const double r[3])
@@ -102,13 +118,19 @@ BRDF_CLONES FLATTEN static void brdf_tile(const double *coef, double weight,
     double c[BRDF_MAX_COEF]; /* a copy that nothing else can point at */
     memcpy(c, coef, sizeof c);
 #endif
+    const brdf_watch *const watch = facets->watch;
     _Alignas(64) double ci[BRDF_TILE], cr[BRDF_TILE], scale[BRDF_TILE], total[BRDF_TILE] = {0};
     for (int f = 0; f < facets->n; f++) {
-        if (!tile_cosines(facets, f, light, ci, cr)) continue;
+        const bool lit = tile_cosines(facets, f, light, ci, cr);
+        const bool watched = watch && tile_is_watched(watch, ci, cr);
+        const uint32_t taken = watched ? watch->found(watch->finder, f) : 0;
+        if (!lit) continue;
         const double *part = visible ? visible + (size_t)f * BRDF_TILE : NULL;
         const double area = weight * facets->area[f];
         for (int k = 0; k < BRDF_TILE; k++)
             scale[k] = part ? area * part[k] : area;
+        for (int k = 0; k < BRDF_TILE && taken; k++)
+            scale[k] = taken >> k & 1 ? 0.0 : scale[k];
         brdf_tile_add(c, facets, f, light, ci, cr, scale, total);
     }
     for (int k = 0; k < BRDF_TILE; k++)

@@ -598,6 +598,15 @@ CLONES FLATTEN static double find_lit(const facet_axes *f, const brdf_light *lig
     return n;
 }
 
+/* A lobe that the disc may be felt in, or a mirror. */
+static bool has_lobe(const lobe_shape *shape)
+{
+    return shape->specular || shape->narrow > 1.0 / LOBE_WIDEST;
+}
+
+/* In place of 1, for the bisector's way while the source crosses the disc: room for its bend. */
+#define BISECTOR_WAY 1.01
+
 /* rule_for in all lanes; size is an upper bound, as the source's way may be foreshortened. */
 CLONES FLATTEN static void find_blurred(const lobe_shape *shape, const facet_axes *f,
                                         const brdf_light *light, const source_disc *disc,
@@ -618,7 +627,7 @@ CLONES FLATTEN static void find_blurred(const lobe_shape *shape, const facet_axe
         const double x = (t0 * h0 + t1 * h1 + t2 * h2) * up;
         const double y = (b0 * h0 + b1 * h1 + b2 * h2) * up;
         const double distance = sqrt(x * x * narrow_x * narrow_x + y * y * narrow_y * narrow_y);
-        const double size = 1.01 * disc->scale[k] * narrow * up * sqrt(1.0 + x * x + y * y);
+        const double size = BISECTOR_WAY * disc->scale[k] * narrow * up * sqrt(1.0 + x * x + y * y);
         const double ruled = rule_for(size, distance, wing), here = ruled > always ? ruled : always;
         const double inside = (distance - size) * light->hlen[k] <= end ? lit[k] * here : 0.0;
         const double best = inside > rule[k] ? inside : rule[k];
@@ -626,20 +635,106 @@ CLONES FLATTEN static void find_blurred(const lobe_shape *shape, const facet_axe
     }
 }
 
-bool disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
-                   const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE])
+CLONES static uint32_t lanes_with_rule(const double rule[BRDF_TILE])
+{
+    int64_t lanes = 0;
+    for (int k = 0; k < BRDF_TILE; k++)
+        lanes |= -(int64_t)(rule[k] != DISC_CENTRE) & (int64_t)1 << k;
+    return (uint32_t)lanes;
+}
+
+uint32_t disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
+                       const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE])
 {
     facet_axes f;
-    _Alignas(64) double lit[BRDF_TILE], any = 0.0;
+    _Alignas(64) double lit[BRDF_TILE];
     for (int j = 0; j < 3; j++) {
         f.n[j] = facets->normal[j][which];
         f.t[j] = facets->tangent[j][which];
         f.b[j] = facets->bitangent[j][which];
     }
-    if (find_lit(&f, light, disc, shape->surge ? OPPOSITION : 0.0, lit, rule) == 0.0) return false;
-    if (shape->specular || shape->narrow > 1.0 / LOBE_WIDEST)
-        find_blurred(shape, &f, light, disc, lit, rule);
-    for (int k = 0; k < BRDF_TILE; k++)
-        any += rule[k];
-    return any != 0.0;
+    if (find_lit(&f, light, disc, shape->surge ? OPPOSITION : 0.0, lit, rule) == 0.0) return 0;
+    if (has_lobe(shape)) find_blurred(shape, &f, light, disc, lit, rule);
+    return lanes_with_rule(rule);
+}
+
+/* --- which facets are worth a look --- */
+
+/* Tilts of the bisector from the normal, by their tangents; empty where from >= to. */
+typedef struct tilts {
+    double from, to;
+} tilts;
+
+/* Where the lobe's top is farther from all of the disc than that, in widths. By find_blurred, with
+ * t the tangent of the tilt, the disc is as large as `size` (1 + t^2), and the distance at least
+ * t `narrow`. */
+static tilts tilts_beyond(double widths, double size, double narrow)
+{
+    const double square = narrow * narrow - 4.0 * size * (size + widths);
+    if (!(square > 0.0)) return (tilts){0.0, 0.0};
+    const double sum = narrow + sqrt(square);
+    return (tilts){2.0 * (size + widths) / sum, sum / (2.0 * size)};
+}
+
+/* Up to where size (1 + t^2) is no larger than that; -1: nowhere. */
+static double tilt_of_size(double size, double most)
+{
+    return most > size ? sqrt(most / size - 1.0) : -1.0;
+}
+
+/* Both together, where they touch; else a. */
+static tilts either(tilts a, tilts b)
+{
+    if (!(b.from < b.to && b.from <= a.to && a.from <= b.to)) return a;
+    return (tilts){fmin(a.from, b.from), fmax(a.to, b.to)};
+}
+
+/* Tilts at which rule_for says that the middle of the disc will do, or the lobe is over: for certain
+ * in all lanes in which the disc is no larger, and the bisector no shorter, than that. */
+static tilts tilts_at_ease(const lobe_shape *shape, double scale, double hlen)
+{
+    if (shape->specular) return tilts_beyond(0.0, BISECTOR_WAY * scale / hlen, 1.0);
+    const double narrow = 1.0 / fmax(shape->width[0], shape->width[1]), wing = shape->wing;
+    const double size = BISECTOR_WAY * scale * shape->narrow / hlen, limit = sqrt(POINT_ERROR);
+    /* `least` of rule_for */
+    const tilts small = {-1.0, tilt_of_size(size, limit / sqrt(2.0))};
+    const tilts core = either(tilts_beyond(2.0, size, narrow), small);
+    /* `fall` is at most wing / (t narrow), and nowhere above the smaller of wing and its root */
+    const double b = limit * narrow / (size * wing), root = sqrt(fmax(b * b - 4.0, 0.0));
+    const tilts steep = {b > 2.0 ? 2.0 / (b + root) : 1.0, b > 2.0 ? 0.5 * (b + root) : 1.0};
+    const tilts gentle = {-1.0, tilt_of_size(size, limit / fmin(wing, sqrt(wing)))};
+    const tilts bend = either(steep, gentle);
+    const tilts calm = {fmax(core.from, bend.from), fmin(core.to, bend.to)};
+    return either(tilts_beyond(2.0 * shape->end / hlen, size, narrow), calm);
+}
+
+bool disc_watch_set(const lobe_shape *shape, const brdf_light *light, const source_disc *disc,
+                    brdf_watch *out)
+{
+    static const double ROUNDING = 1e-12; /* of cosines, many times over */
+    const double opposition = shape->surge ? OPPOSITION : 0.0;
+    double scale = 0.0, hlen = 2.0;
+    bool surge = false;
+    for (int k = 0; k < BRDF_TILE; k++) {
+        const double q = disc->scale[k], near = opposition * q;
+        if (!(q > 0.0)) continue;
+        scale = q > scale ? q : scale;
+        hlen = light->hlen[k] < hlen ? light->hlen[k] : hlen;
+        surge |= light->hh[k] > 4.0 - near * near;
+    }
+    const bool lobe = has_lobe(shape);
+    tilts ease = {-1.0, HUGE_VAL};
+    if (lobe && hlen > 1e-3) ease = tilts_at_ease(shape, scale, hlen);
+    const bool none = !(ease.from < ease.to);
+    const double from = ease.from >= 0.0 ? 1.0 / sqrt(1.0 + ease.from * ease.from) : HUGE_VAL;
+    const double to = 1.0 / sqrt(1.0 + ease.to * ease.to);
+    out->has_lobe = lobe || surge;
+    for (int k = 0; k < BRDF_TILE; k++) {
+        const double q = disc->scale[k], near = opposition * q;
+        const bool all = none || light->hh[k] > 4.0 - near * near || hlen <= 1e-3;
+        out->low[k] = q > 0.0 ? q + ROUNDING : -1.0;
+        out->near[k] = all ? -HUGE_VAL : from * light->hlen[k] - ROUNDING;
+        out->graze[k] = to * light->hlen[k] + ROUNDING;
+    }
+    return scale > 0.0;
 }

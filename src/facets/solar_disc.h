@@ -48,10 +48,17 @@ enum {
     DISC_SET                  /* the disc sets behind the facet's plane */
 };
 
-/* Which rule each lane of a flat facet takes, DISC_CENTRE where the middle of the disc will do;
- * false where it does in all of them. DISC_NARROW and DISC_SET are for disc_push. */
-bool disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
-                   const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE]);
+/* Which rule each lane of a flat facet takes, DISC_CENTRE where the middle of the disc will do.
+ * DISC_NARROW and DISC_SET are for disc_push. Returns the lanes that take another than DISC_CENTRE:
+ * bit k for lane k. */
+uint32_t disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
+                       const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE]);
+
+/* Sets the limits of a watch so that it shows every facet, in that light, for which disc_rules_of
+ * finds a lane, and few others. `finder` and `found` are left as they are. False: there is no such
+ * facet, as all lanes are points. */
+bool disc_watch_set(const lobe_shape *shape, const brdf_light *light, const source_disc *disc,
+                    brdf_watch *out);
 
 /* Samples that wait for the same rule; zero-initialise. */
 typedef struct disc_queue {
