@@ -555,11 +555,13 @@ static inline double sound_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE sound_lane
 #define brdf_eval sound_eval
 #define brdf_tile_add sound_tile_add
+#define brdf_tile_run sound_tile_run
 #define brdf_tile sound_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: f depends on the incidence alone. */
@@ -570,11 +572,13 @@ static inline double one_way_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE one_way_lane
 #define brdf_eval one_way_eval
 #define brdf_tile_add one_way_tile_add
+#define brdf_tile_run one_way_tile_run
 #define brdf_tile one_way_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: reflects 1.3 times the share that it says. */
@@ -585,11 +589,13 @@ static inline double generous_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE generous_lane
 #define brdf_eval generous_eval
 #define brdf_tile_add generous_tile_add
+#define brdf_tile_run generous_tile_run
 #define brdf_tile generous_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: no number where source and observer both graze the surface. */
@@ -601,11 +607,13 @@ static inline double grazing_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE grazing_lane
 #define brdf_eval grazing_eval
 #define brdf_tile_add grazing_tile_add
+#define brdf_tile_run grazing_tile_run
 #define brdf_tile grazing_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: depends on the tangent. */
@@ -616,11 +624,13 @@ static inline double brushed_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE brushed_lane
 #define brdf_eval brushed_eval
 #define brdf_tile_add brushed_tile_add
+#define brdf_tile_run brushed_tile_run
 #define brdf_tile brushed_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: a scalar face without a horizon, and below 0 for some pairs. */

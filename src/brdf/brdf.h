@@ -20,17 +20,23 @@ enum {
     BRDF_MAX_COEF = 24    /* numbers that a prepared model keeps */
 };
 
-/* Facets that the kernel shows to its caller before it adds them, because the lanes that the caller
- * cares for are rare, and the kernel has their cosines at hand. A lane is shown where cr > 0, ci >
- * -low, and one of: ci < low, H.n > near, H.n < graze. H.n and the cosines are good to 1e-15. */
+/* What a watch looks at, each with all before it. */
+typedef enum brdf_watch_kind {
+    BRDF_WATCH_SOURCE, /* |ci| < low: the source is about to set */
+    BRDF_WATCH_LOBE,   /* H.n > near: the bisector is near the normal */
+    BRDF_WATCH_WINGS   /* |ci| + cr < graze: it is near the facet's plane */
+} brdf_watch_kind;
+
+/* Samples that the kernel shows to its caller before it adds them: those are rare, and the kernel
+ * has their cosines at hand, good to 1e-15. A sample is shown where cr > BRDF_EDGE and one of the
+ * above holds with the limits of its lane. */
 typedef struct brdf_watch {
-    _Alignas(64) double low[BRDF_TILE];          /* at least 0; below 0: this lane never */
-    double near[BRDF_TILE], graze[BRDF_TILE]; /* read where has_lobe */
-    bool has_lobe;                               /* false: ci alone counts */
-    void *finder;                                /* for `found`; borrowed */
-    /* Told of a facet with such lanes, also if no lane is lit. Returns the lanes, bit k for lane k,
-     * that the caller has seen to himself: the kernel leaves them out. */
-    uint32_t (*found)(void *finder, int facet);
+    brdf_watch_kind kind;
+    _Alignas(64) double low[BRDF_TILE], near[BRDF_TILE], graze[BRDF_TILE];
+    void *finder; /* for `found`; borrowed */
+    /* Told of a facet and its lanes, bit k for lane k. Returns those among them that the caller has
+     * seen to: the kernel leaves them out. */
+    uint32_t (*found)(void *finder, int facet, uint32_t lanes);
 } brdf_watch;
 
 /* Facets of one material in one component: structure of arrays, component coordinates.

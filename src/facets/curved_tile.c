@@ -158,7 +158,8 @@ static void push_arc(const scene *s, const curved_piece *p, double lo, double hi
         turn_back(p, u, s->i, i);
         turn_back(p, u, s->r, r);
         if (s->disc)
-            disc_push(s->batch, s->disc, i, r, s->part * p->area_m2 * part);
+            disc_push(s->batch, s->disc, disc_rule_of(s->disc, i, r), i, r,
+                      s->part * p->area_m2 * part);
         else
             batch_push(s->batch, s->lane, i, r, 0.0, 0.0, s->part * p->area_m2 * part);
     }

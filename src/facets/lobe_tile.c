@@ -34,40 +34,40 @@ static void frame_of(const brdf_facets *facets, int k, double frame[9])
     }
 }
 
-/* Takes the mean over the disc of one lane of facet k by that rule. */
-static void add_blurred(lobe_run *run, int k, int lane, int rule, double area_m2)
+static void turn_into(const double frame[9], const double v[3][BRDF_TILE], int lane, double out[3])
 {
-    curved_tile *t = &run->tile;
-    double frame[9], i[3], r[3];
-    frame_of(t->facets, k, frame);
-    const double light_i[3] = {t->light->i[0][lane], t->light->i[1][lane], t->light->i[2][lane]};
-    const double light_r[3] = {t->light->r[0][lane], t->light->r[1][lane], t->light->r[2][lane]};
-    mat_vec(frame, light_i, i);
-    mat_vec(frame, light_r, r);
-    if (rule < DISC_RULES) {
-        disc_queue_push(&run->queues[rule], t->batch.material, &t->disc->rules[rule],
-                        t->disc->scale[lane], lane, i, r, area_m2);
-        return;
-    }
-    const disc_sample sample = {.shape = t->shape, .disc = t->disc, .lane = lane};
-    disc_push(&t->batch, &sample, i, r, area_m2);
+    const double one[3] = {v[0][lane], v[1][lane], v[2][lane]};
+    mat_vec(frame, one, out);
 }
 
-/* The kernel has come upon a facet that may feel the disc: sees to the lanes that do. */
-static uint32_t add_facet(void *finder, int which)
+/* The kernel shows a facet that may feel the disc: takes the mean over it in the lanes that do. */
+static uint32_t add_facet(void *finder, int which, uint32_t lanes)
 {
     lobe_run *run = finder;
-    const curved_tile *t = &run->tile;
+    curved_tile *t = &run->tile;
     const int k = run->first + which;
     const double *left = run->left ? run->left + (size_t)which * BRDF_TILE : NULL;
-    _Alignas(64) double rules[BRDF_TILE];
-    const uint32_t lanes = disc_rules_of(t->shape, t->facets, k, t->light, t->disc, rules);
-    for (uint32_t rest = lanes; rest; rest &= rest - 1) {
-        const int lane = __builtin_ctz(rest);
-        const double part = left ? left[lane] : 1.0;
-        if (part > 0.0) add_blurred(run, k, lane, (int)rules[lane], part * t->facets->area[k]);
+    uint32_t taken = 0;
+    double frame[9];
+    frame_of(t->facets, k, frame);
+    for (int lane = 0; lane < BRDF_TILE; lane++) {
+        if (!(lanes >> lane & 1)) continue;
+        double i[3], r[3];
+        turn_into(frame, t->light->i, lane, i);
+        turn_into(frame, t->light->r, lane, r);
+        const disc_sample sample = {.shape = t->shape, .disc = t->disc, .lane = lane};
+        const int rule = disc_rule_of(&sample, i, r);
+        if (rule == DISC_CENTRE) continue;
+        taken |= (uint32_t)1 << lane;
+        const double area_m2 = (left ? left[lane] : 1.0) * t->facets->area[k];
+        if (!(area_m2 > 0.0)) continue;
+        if (rule < DISC_RULES)
+            disc_queue_push(&run->queues[rule], t->batch.material, &t->disc->rules[rule],
+                            t->disc->scale[lane], lane, i, r, area_m2);
+        else
+            disc_push(&t->batch, &sample, rule, i, r, area_m2);
     }
-    return lanes;
+    return taken;
 }
 
 static brdf_facets facets_from(const brdf_facets *facets, int first, int n)

@@ -27,39 +27,68 @@ static bool has_surge(const brdf_lobe *lobe)
     return fabs(lobe->model->eval(brdf_lobe_coef(lobe), i, r) - together) > CHANGE * together;
 }
 
-static double f_at(const brdf_lobe *lobe, double tilt)
+/* A way for the bisector to leave the normal, with the two directions on both sides of it. */
+typedef struct slice {
+    const brdf_lobe *lobe;
+    int axis;          /* 0 along the tangent, 1 across it */
+    double half_phase; /* rad */
+    double width;      /* of the lobe that way, rad */
+} slice;
+
+/* f at that many widths from the lobe's top, 1/sr. */
+static double f_at(const slice *s, double distance)
 {
-    const double i[3] = {sin(tilt), 0.0, cos(tilt)};
-    return lobe->model->eval(brdf_lobe_coef(lobe), i, i) / (i[2] * i[2]);
+    const double tilt = distance * s->width, c = cos(s->half_phase), across = sin(s->half_phase);
+    double i[3], r[3];
+    i[s->axis] = r[s->axis] = sin(tilt) * c;
+    i[1 - s->axis] = across;
+    r[1 - s->axis] = -across;
+    i[2] = r[2] = cos(tilt) * c;
+    return s->lobe->model->eval(brdf_lobe_coef(s->lobe), i, r) / (i[2] * i[2]);
 }
 
 /* How f, with all that the material reflects besides, bends at a distance from the lobe's top:
  * f''/f and f'/(f distance), per width^2. */
-static double bend_at(const brdf_lobe *lobe, double width, double distance)
+static double bend_at(const slice *s, double distance)
 {
     const double step = fmax(0.2, 0.05 * distance);
-    const double f = f_at(lobe, distance * width), on = f_at(lobe, (distance + step) * width);
-    const double before = f_at(lobe, (distance - step) * width);
+    const double f = f_at(s, distance), on = f_at(s, distance + step);
+    const double before = f_at(s, distance - step);
     if (!(f > 0.0)) return 0.0;
     return (fabs(on - 2.0 * f + before) / (step * step) +
             fabs(on - before) / (2.0 * step * distance)) /
            f;
 }
 
-/* Looks how a lobe of that width falls: as a power of the distance at most, and to where. */
-static void look_at_wings(const brdf_lobe *lobe, double width, lobe_shape *out)
+/* Looks how a lobe falls: as a power of the distance at most, with the two directions together; and
+ * to where, with them up to 120 deg apart, as what it stands out from may change. Some lobes grow
+ * wider then, as 1 / cos(half of the phase angle) at most: that is taken out of `end`. */
+static void look_at_wings(const brdf_lobe *lobe, lobe_shape *out)
 {
-    static const double FAR = 1.2;     /* rad */
-    static const double SLIGHT = 1e-3; /* bends that need no care, under discs of two widths */
+    static const double FAR = 1.2; /* rad */
+    static const double HALF_PHASES[] = {0.0, 30.0 * DEG, 60.0 * DEG};
+    const double width = 1.0 / out->narrow;
     out->wing = 0.0;
-    out->end = 0.0;
-    for (double d = 1.0; d * width < FAR; d *= 1.12) {
-        const double bend = bend_at(lobe, width, d);
-        if (bend < SLIGHT) continue;
-        out->wing = fmax(out->wing, d * sqrt(bend));
-        out->end = 1.12 * d;
+    for (int p = 0; p < 3; p++) {
+        const slice s = {lobe, out->width[1] < out->width[0], HALF_PHASES[p], width};
+        for (double d = 1.0; d * width < FAR; d *= 1.12) {
+            const double bend = bend_at(&s, d);
+            if (p == 0 && bend >= LOBE_BEND) out->wing = fmax(out->wing, d * sqrt(bend));
+            const double end = 1.12 * d * width < FAR ? 1.12 * d * cos(s.half_phase) : HUGE_VAL;
+            for (int j = 0; j < LOBE_ENDS && bend >= LOBE_BEND * (double)(1 << 2 * j); j++)
+                out->end[j] = fmax(out->end[j], end);
+        }
     }
-    if (out->end * width > 0.8 * FAR) out->end = HUGE_VAL;
+}
+
+/* Past how many widths the middle of a disc of that size will do. */
+static double end_of(const lobe_shape *shape, double size)
+{
+    int j = 0;
+    double bend = 4.0 * LOBE_BEND * size * size;
+    for (; j + 1 < LOBE_ENDS && bend <= POINT_ERROR; j++)
+        bend *= 4.0;
+    return shape->end[j];
 }
 
 void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
@@ -77,7 +106,7 @@ void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
     }
     out->narrow = 1.0 / fmin(out->width[0], out->width[1]);
     out->surge = has_surge(lobe);
-    look_at_wings(lobe, 1.0 / out->narrow, out);
+    look_at_wings(lobe, out);
 }
 
 /* --- the disc's own moments --- */
@@ -422,7 +451,7 @@ static void push_mirror(const scene *s)
 
 /* The cheapest rule that will do, DISC_NARROW where the disc is large against the lobe. size of the
  * disc and distance from the lobe's top in its widths. */
-static inline double rule_for(double size, double distance, double wing)
+static inline int rule_for(double size, double distance, double wing)
 {
     const double far = distance > 1.0 ? distance : 1.0, over = wing / far;
     const double fall = distance < over ? distance : over;  /* of the logarithm, per width */
@@ -430,10 +459,9 @@ static inline double rule_for(double size, double distance, double wing)
     const double bend = fall * fall;
     const double least = here > 0.0 ? 2.0 : 0.0, steep = size * fall / 1.6;
     const double change = steep > here ? steep : here;
-    const double finer = (change > 0.28 ? 1.0 : 0.0) + (change > 0.62 ? 1.0 : 0.0) +
-                         (change > 1.0 ? 1.0 : 0.0) + (change > 1.5 ? 1.0 : 0.0) +
-                         (change > 2.0 ? 1.0 : 0.0);
-    return size * size * (bend > least ? bend : least) > POINT_ERROR ? 1.0 + finer : 0.0;
+    if (!(size * size * (bend > least ? bend : least) > POINT_ERROR)) return DISC_CENTRE;
+    return DISC_CROSS + (change > 0.28) + (change > 0.62) + (change > 1.0) + (change > 1.5) +
+           (change > 2.0);
 }
 
 _Static_assert(DISC_CENTRE == 0 && DISC_CROSS == 1 && DISC_FOUR == 5 && DISC_NARROW == 6,
@@ -448,21 +476,63 @@ static bool is_at_surge(const scene *s)
     return norm3(apart) < OPPOSITION * s->scale;
 }
 
-static disc_rule_kind rule_of(const scene *s)
+/* The rule where the lobe is narrow, or seems so to disc_rule_of. */
+static int rule_of(const scene *s)
 {
     lean l;
-    double h[3];
-    const lobe_shape *shape = s->sample->shape;
-    add3(s->i, s->r, h);
-    const bool has_lean = lean_at(s, 0.0, 0.0, &l);
-    const double size = has_lean ? largest_size(&l) : 0.0;
-    const double distance = has_lean ? sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]) : 0.0;
-    const bool past = (distance - size) * norm3(h) > 2.0 * shape->end;
-    const int rule = past ? DISC_CENTRE : (int)rule_for(size, distance, shape->wing);
-    return is_at_surge(s) && rule < DISC_FOUR ? DISC_FOUR : (disc_rule_kind)rule;
+    if (!lean_at(s, 0.0, 0.0, &l)) return DISC_CENTRE;
+    const double distance = sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]);
+    const int rule = rule_for(largest_size(&l), distance, s->sample->shape->wing);
+    return is_at_surge(s) && rule < DISC_FOUR ? DISC_FOUR : rule;
 }
 
-void disc_push(batch *b, const disc_sample *sample, const double i[3], const double r[3],
+/* A lobe that the disc may be felt in, or a mirror. */
+static bool has_lobe(const lobe_shape *shape)
+{
+    return shape->specular || shape->narrow > 1.0 / LOBE_WIDEST;
+}
+
+/* In place of 1, for the bisector's way while the source crosses the disc: room for its bend. */
+#define BISECTOR_WAY 1.01
+
+/* Rad; a mirror's lobe ends at once, whatever its width. */
+static double widest_of(const lobe_shape *shape)
+{
+    if (shape->specular) return 1.0;
+    return shape->width[0] > shape->width[1] ? shape->width[0] : shape->width[1];
+}
+
+/* The rule for a lobe. The disc's size is an upper bound, as the source's way may be foreshortened.
+ */
+static int lobe_rule(const lobe_shape *shape, double scale, const double h[3], double hlen)
+{
+    const double up = 1.0 / (h[2] > 1e-30 ? h[2] : 1e-30), x = h[0] * up, y = h[1] * up;
+    const double t2 = x * x + y * y, tilt = sqrt(t2), way = BISECTOR_WAY * scale / hlen;
+    const double size = way * shape->narrow * (1.0 + t2), wide = 2.0 / hlen;
+    const double end = shape->specular ? 0.0 : wide * end_of(shape, size);
+    /* The nearest that the bisector can come to the lobe's top: by the tangents of angles. */
+    if (tilt - way > end * widest_of(shape) * (1.0 + tilt * way)) return DISC_CENTRE;
+    if (shape->specular) return DISC_NARROW;
+    const double from_x = x / shape->width[0], from_y = y / shape->width[1];
+    const double distance = sqrt(from_x * from_x + from_y * from_y);
+    return distance - size > end ? DISC_CENTRE : rule_for(size, distance, shape->wing);
+}
+
+int disc_rule_of(const disc_sample *sample, const double i[3], const double r[3])
+{
+    const lobe_shape *shape = sample->shape;
+    const double scale = sample->disc->scale[sample->lane];
+    if (!(scale > 0.0 && i[2] > -scale && r[2] > BRDF_EDGE)) return DISC_CENTRE;
+    double h[3];
+    add3(i, r, h);
+    const double hh = dot3(h, h), near = OPPOSITION * scale;
+    const int rule = has_lobe(shape) ? lobe_rule(shape, scale, h, sqrt(hh)) : DISC_CENTRE;
+    if (rule == DISC_NARROW) return rule;
+    if (i[2] < scale) return DISC_SET;
+    return shape->surge && hh > 4.0 - near * near ? DISC_FOUR : rule;
+}
+
+void disc_push(batch *b, const disc_sample *sample, int rule, const double i[3], const double r[3],
                double area_m2)
 {
     scene s = {.batch = b,
@@ -470,15 +540,19 @@ void disc_push(batch *b, const disc_sample *sample, const double i[3], const dou
                .disc = sample->disc,
                .scale = sample->disc->scale[sample->lane],
                .area_m2 = area_m2};
-    if (!(r[2] > BRDF_EDGE)) return;
+    if (rule == DISC_SET) {
+        copy3(i, s.i);
+        copy3(r, s.r);
+        push_set(&s);
+        return;
+    }
     look_at(&s, i, r);
     if (sample->shape->specular) {
         push_mirror(&s);
         return;
     }
-    if (s.i[2] <= -s.scale) return; /* all of it has set */
-    const disc_rule_kind rule = rule_of(&s);
-    if ((int)rule == DISC_NARROW)
+    if (rule == DISC_NARROW) rule = rule_of(&s);
+    if (rule == DISC_NARROW)
         push_narrow(&s);
     else if (s.i[2] < s.scale)
         push_set(&s);
@@ -511,8 +585,9 @@ CLONES static void find_axes(const disc_queue *q, double e1[3][BRDF_TILE], doubl
     }
 }
 
-CLONES static void move_source(const disc_queue *q, const double e1[3][BRDF_TILE],
-                               const double e2[3][BRDF_TILE], double x, double y, brdf_light *light)
+CLONES static void move_source(const disc_queue *restrict q, const double e1[restrict 3][BRDF_TILE],
+                               const double e2[restrict 3][BRDF_TILE], double x, double y,
+                               brdf_light *restrict light)
 {
     for (int k = 0; k < BRDF_TILE; k++) {
         const double a = q->scale[k] * x, b = q->scale[k] * y;
@@ -567,97 +642,6 @@ void disc_queue_push(disc_queue *q, const brdf_material *material, const disc_ru
     if (q->n == BRDF_TILE) disc_queue_flush(q, material, rule);
 }
 
-/* --- which lanes --- */
-
-/* What is the same for all lanes of a facet. */
-typedef struct facet_axes {
-    double n[3], t[3], b[3];
-} facet_axes;
-
-/* Rules for lanes in which the facet is lit by some of the disc and seen: where the disc is about
- * to set, or the two directions are near to each other. lit: 1, else 0. Returns how many are lit.
- */
-CLONES FLATTEN static double find_lit(const facet_axes *f, const brdf_light *light,
-                                      const source_disc *disc, double opposition,
-                                      double lit[BRDF_TILE], double rule[BRDF_TILE])
-{
-    const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2];
-    for (int k = 0; k < BRDF_TILE; k++) {
-        const double q = disc->scale[k], near = opposition * q;
-        const double ci = n0 * light->i[0][k] + n1 * light->i[1][k] + n2 * light->i[2][k];
-        const double cr = n0 * light->r[0][k] + n1 * light->r[1][k] + n2 * light->r[2][k];
-        const double up = q > 0.0 ? ci + q : -1.0, both = up < cr - BRDF_EDGE ? up : cr - BRDF_EDGE;
-        const double surge = light->hh[k] > 4.0 - near * near ? DISC_FOUR : 0.0;
-        const double special = ci < q ? DISC_SET : surge;
-        lit[k] = both > 0.0 ? 1.0 : 0.0;
-        rule[k] = both > 0.0 ? special : 0.0;
-    }
-    double n = 0.0;
-    for (int k = 0; k < BRDF_TILE; k++)
-        n += lit[k];
-    return n;
-}
-
-/* A lobe that the disc may be felt in, or a mirror. */
-static bool has_lobe(const lobe_shape *shape)
-{
-    return shape->specular || shape->narrow > 1.0 / LOBE_WIDEST;
-}
-
-/* In place of 1, for the bisector's way while the source crosses the disc: room for its bend. */
-#define BISECTOR_WAY 1.01
-
-/* rule_for in all lanes; size is an upper bound, as the source's way may be foreshortened. */
-CLONES FLATTEN static void find_blurred(const lobe_shape *shape, const facet_axes *f,
-                                        const brdf_light *light, const source_disc *disc,
-                                        const double lit[BRDF_TILE], double rule[BRDF_TILE])
-{
-    const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2], t0 = f->t[0], t1 = f->t[1];
-    const double t2 = f->t[2], b0 = f->b[0], b1 = f->b[1], b2 = f->b[2];
-    /* A mirror's width is taken as 1 rad: its lobe is over at once. */
-    const double narrow_x = shape->specular ? 1.0 : 1.0 / shape->width[0];
-    const double narrow_y = shape->specular ? 1.0 : 1.0 / shape->width[1];
-    const double narrow = shape->specular ? 1.0 : shape->narrow;
-    const double end = shape->end < HUGE_VAL ? 2.0 * shape->end : 1e30;
-    const double wing = shape->wing;
-    const double always = shape->specular ? (double)DISC_NARROW : 0.0;
-    for (int k = 0; k < BRDF_TILE; k++) {
-        const double h0 = light->h[0][k], h1 = light->h[1][k], h2 = light->h[2][k];
-        const double hn = n0 * h0 + n1 * h1 + n2 * h2, up = 1.0 / (hn > 1e-30 ? hn : 1e-30);
-        const double x = (t0 * h0 + t1 * h1 + t2 * h2) * up;
-        const double y = (b0 * h0 + b1 * h1 + b2 * h2) * up;
-        const double distance = sqrt(x * x * narrow_x * narrow_x + y * y * narrow_y * narrow_y);
-        const double size = BISECTOR_WAY * disc->scale[k] * narrow * up * sqrt(1.0 + x * x + y * y);
-        const double ruled = rule_for(size, distance, wing), here = ruled > always ? ruled : always;
-        const double inside = (distance - size) * light->hlen[k] <= end ? lit[k] * here : 0.0;
-        const double best = inside > rule[k] ? inside : rule[k];
-        rule[k] = inside == DISC_NARROW ? inside : best;
-    }
-}
-
-CLONES static uint32_t lanes_with_rule(const double rule[BRDF_TILE])
-{
-    int64_t lanes = 0;
-    for (int k = 0; k < BRDF_TILE; k++)
-        lanes |= -(int64_t)(rule[k] != DISC_CENTRE) & (int64_t)1 << k;
-    return (uint32_t)lanes;
-}
-
-uint32_t disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
-                       const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE])
-{
-    facet_axes f;
-    _Alignas(64) double lit[BRDF_TILE];
-    for (int j = 0; j < 3; j++) {
-        f.n[j] = facets->normal[j][which];
-        f.t[j] = facets->tangent[j][which];
-        f.b[j] = facets->bitangent[j][which];
-    }
-    if (find_lit(&f, light, disc, shape->surge ? OPPOSITION : 0.0, lit, rule) == 0.0) return 0;
-    if (has_lobe(shape)) find_blurred(shape, &f, light, disc, lit, rule);
-    return lanes_with_rule(rule);
-}
-
 /* --- which facets are worth a look --- */
 
 /* Tilts of the bisector from the normal, by their tangents; empty where from >= to. */
@@ -665,8 +649,8 @@ typedef struct tilts {
     double from, to;
 } tilts;
 
-/* Where the lobe's top is farther from all of the disc than that, in widths. By find_blurred, with
- * t the tangent of the tilt, the disc is as large as `size` (1 + t^2), and the distance at least
+/* Where the lobe's top is farther from all of the disc than that, in widths. By lobe_rule, with t
+ * the tangent of the tilt, the disc is as large as `size` (1 + t^2), and the distance at least
  * t `narrow`. */
 static tilts tilts_beyond(double widths, double size, double narrow)
 {
@@ -682,6 +666,12 @@ static double tilt_of_size(double size, double most)
     return most > size ? sqrt(most / size - 1.0) : -1.0;
 }
 
+/* From where all of the disc is past a tilt; way: of the bisector. */
+static double tilt_past(double tilt, double way)
+{
+    return tilt * way < 1.0 ? (tilt + way) / (1.0 - tilt * way) : HUGE_VAL;
+}
+
 /* Both together, where they touch; else a. */
 static tilts either(tilts a, tilts b)
 {
@@ -689,13 +679,21 @@ static tilts either(tilts a, tilts b)
     return (tilts){fmin(a.from, b.from), fmax(a.to, b.to)};
 }
 
-/* Tilts at which rule_for says that the middle of the disc will do, or the lobe is over: for certain
- * in all lanes in which the disc is no larger, and the bisector no shorter, than that. */
+/* Tilts at which lobe_rule says DISC_CENTRE: for certain in all lanes in which the disc is no
+ * larger, and the bisector no shorter, than that. */
 static tilts tilts_at_ease(const lobe_shape *shape, double scale, double hlen)
 {
-    if (shape->specular) return tilts_beyond(0.0, BISECTOR_WAY * scale / hlen, 1.0);
-    const double narrow = 1.0 / fmax(shape->width[0], shape->width[1]), wing = shape->wing;
-    const double size = BISECTOR_WAY * scale * shape->narrow / hlen, limit = sqrt(POINT_ERROR);
+    const double way = BISECTOR_WAY * scale / hlen, wide = 2.0 / hlen * widest_of(shape);
+    if (shape->specular) return (tilts){way, HUGE_VAL};
+    const double size = way * shape->narrow, narrow = 1.0 / widest_of(shape), wing = shape->wing;
+    const double limit = sqrt(POINT_ERROR);
+    /* Past each end, up to where the disc is too large for it. */
+    tilts past = {tilt_past(wide * shape->end[0], way), HUGE_VAL};
+    for (int j = 1; j < LOBE_ENDS; j++) {
+        const double most = limit / sqrt(LOBE_BEND * (double)(1 << 2 * j));
+        past =
+            either(past, (tilts){tilt_past(wide * shape->end[j], way), tilt_of_size(size, most)});
+    }
     /* `least` of rule_for */
     const tilts small = {-1.0, tilt_of_size(size, limit / sqrt(2.0))};
     const tilts core = either(tilts_beyond(2.0, size, narrow), small);
@@ -705,7 +703,7 @@ static tilts tilts_at_ease(const lobe_shape *shape, double scale, double hlen)
     const tilts gentle = {-1.0, tilt_of_size(size, limit / fmin(wing, sqrt(wing)))};
     const tilts bend = either(steep, gentle);
     const tilts calm = {fmax(core.from, bend.from), fmin(core.to, bend.to)};
-    return either(tilts_beyond(2.0 * shape->end / hlen, size, narrow), calm);
+    return either(past, calm);
 }
 
 bool disc_watch_set(const lobe_shape *shape, const brdf_light *light, const source_disc *disc,
@@ -724,14 +722,14 @@ bool disc_watch_set(const lobe_shape *shape, const brdf_light *light, const sour
     }
     const bool lobe = has_lobe(shape);
     tilts ease = {-1.0, HUGE_VAL};
-    if (lobe && hlen > 1e-3) ease = tilts_at_ease(shape, scale, hlen);
+    if (lobe) ease = hlen > 1e-3 ? tilts_at_ease(shape, scale, hlen) : (tilts){0.0, 0.0};
     const bool none = !(ease.from < ease.to);
     const double from = ease.from >= 0.0 ? 1.0 / sqrt(1.0 + ease.from * ease.from) : HUGE_VAL;
     const double to = 1.0 / sqrt(1.0 + ease.to * ease.to);
-    out->has_lobe = lobe || surge;
+    out->kind = to > 0.0 ? BRDF_WATCH_WINGS : lobe || surge ? BRDF_WATCH_LOBE : BRDF_WATCH_SOURCE;
     for (int k = 0; k < BRDF_TILE; k++) {
         const double q = disc->scale[k], near = opposition * q;
-        const bool all = none || light->hh[k] > 4.0 - near * near || hlen <= 1e-3;
+        const bool all = none || light->hh[k] > 4.0 - near * near;
         out->low[k] = q > 0.0 ? q + ROUNDING : -1.0;
         out->near[k] = all ? -HUGE_VAL : from * light->hlen[k] - ROUNDING;
         out->graze[k] = to * light->hlen[k] + ROUNDING;

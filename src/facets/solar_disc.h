@@ -13,15 +13,20 @@
 #include "facets/batch.h"
 #include "facets/model.h"
 
+enum { LOBE_ENDS = 7 };
+/* A bend that needs no care under discs of 2 widths. */
+#define LOBE_BEND 1e-3
+
 /* How narrow a lobe is (brdf/sharpness.h), as the rooms for curved facets and discs ask. */
 typedef struct lobe_shape {
     double width[2]; /* rad, along and across the tangent, at most LOBE_WIDEST */
     double narrow;   /* 1 / the smaller one */
     double reach;    /* past it nothing is left, in widths, at phase angle 0; may be infinite */
-    double end;      /* past it the disc need not be minded, in widths; may be infinite */
-    bool specular;   /* all of it in the mirror direction */
-    bool surge;      /* f changes over less than a few degrees of the phase angle */
-    double wing;     /* power of the distance from its top with which it falls at most */
+    /* Past end[j] f bends by less than LOBE_BEND 4^j per width^2; widths, may be infinite. */
+    double end[LOBE_ENDS];
+    bool specular; /* all of it in the mirror direction */
+    bool surge;    /* f changes over less than a few degrees of the phase angle */
+    double wing;   /* power of the distance from its top with which it falls at most */
 } lobe_shape;
 
 /* In place of the width of what has no lobe along one axis, rad. */
@@ -33,30 +38,27 @@ void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out);
 typedef struct disc_sample {
     const lobe_shape *shape; /* of the batch's only lobe */
     const source_disc *disc;
-    int lane; /* with a radius above 0 */
+    int lane;
 } disc_sample;
 
-/* Adds the mean over the disc of the light of matter of that area, with a pair of directions (i: to
- * the disc's centre) in its own frame t, b, n. Points of the disc below the horizon give nothing.
- */
-void disc_push(batch *b, const disc_sample *sample, const double i[3], const double r[3],
-               double area_m2);
-
-/* What disc_rules_of says besides the rules of source_disc: */
+/* What disc_rule_of says besides the rules of source_disc: */
 enum {
     DISC_NARROW = DISC_RULES, /* a lobe narrower than the disc, or a mirror */
     DISC_SET                  /* the disc sets behind the facet's plane */
 };
 
-/* Which rule each lane of a flat facet takes, DISC_CENTRE where the middle of the disc will do.
- * DISC_NARROW and DISC_SET are for disc_push. Returns the lanes that take another than DISC_CENTRE:
- * bit k for lane k. */
-uint32_t disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
-                       const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE]);
+/* The rule for a pair of directions (i: to the disc's centre) in the facet's frame t, b, n:
+ * DISC_CENTRE where the middle of the disc will do, or none of it is seen to shine. */
+int disc_rule_of(const disc_sample *sample, const double i[3], const double r[3]);
 
-/* Sets the limits of a watch so that it shows every facet, in that light, for which disc_rules_of
- * finds a lane, and few others. `finder` and `found` are left as they are. False: there is no such
- * facet, as all lanes are points. */
+/* Adds the mean over the disc, by that rule of disc_rule_of, of the light of matter of that area.
+ * Points of the disc below the horizon give nothing. */
+void disc_push(batch *b, const disc_sample *sample, int rule, const double i[3], const double r[3],
+               double area_m2);
+
+/* Sets the limits of a watch so that it shows all samples of flat facets, in that light, for which
+ * disc_rule_of may say something else than DISC_CENTRE, and few others. `finder` and `found` are
+ * left as they are. False: there are none, as all lanes are points. */
 bool disc_watch_set(const lobe_shape *shape, const brdf_light *light, const source_disc *disc,
                     brdf_watch *out);
 
