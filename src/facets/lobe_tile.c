@@ -50,8 +50,8 @@ static uint32_t add_facet(void *finder, int which, uint32_t lanes)
     uint32_t taken = 0;
     double frame[9];
     frame_of(t->facets, k, frame);
-    for (int lane = 0; lane < BRDF_TILE; lane++) {
-        if (!(lanes >> lane & 1)) continue;
+    for (; lanes; lanes &= lanes - 1) {
+        const int lane = __builtin_ctz(lanes);
         double i[3], r[3];
         turn_into(frame, t->light->i, lane, i);
         turn_into(frame, t->light->r, lane, r);

@@ -27,6 +27,12 @@ static bool has_surge(const brdf_lobe *lobe)
     return fabs(lobe->model->eval(brdf_lobe_coef(lobe), i, r) - together) > CHANGE * together;
 }
 
+/* Half of the phase angles at which lobes are looked at, rad; |H| there. */
+#define PHASE_STEP (20.0 * DEG)
+#define PHASE_LAST (70.0 * DEG)
+#define PHASE_LAST_HLEN 0.6840402866513375
+static const double PHASE_HLEN[LOBE_PHASES - 1] = {1.8793852415718169, 1.5320888862379560, 1.0};
+
 /* A way for the bisector to leave the normal, with the two directions on both sides of it. */
 typedef struct slice {
     const brdf_lobe *lobe;
@@ -60,35 +66,57 @@ static double bend_at(const slice *s, double distance)
            f;
 }
 
-/* Looks how a lobe falls: as a power of the distance at most, with the two directions together; and
- * to where, with them up to 120 deg apart, as what it stands out from may change. Some lobes grow
- * wider then, as 1 / cos(half of the phase angle) at most: that is taken out of `end`. */
-static void look_at_wings(const brdf_lobe *lobe, lobe_shape *out)
+/* Where along a slice the bends are over: end[j] for those of LOBE_BEND 4^j. Adds to what is there.
+ * Returns the power with which the lobe falls at most. */
+static double find_ends(const slice *s, double end[LOBE_ENDS])
 {
     static const double FAR = 1.2; /* rad */
-    static const double HALF_PHASES[] = {0.0, 30.0 * DEG, 60.0 * DEG};
-    const double width = 1.0 / out->narrow;
-    out->wing = 0.0;
-    for (int p = 0; p < 3; p++) {
-        const slice s = {lobe, out->width[1] < out->width[0], HALF_PHASES[p], width};
-        for (double d = 1.0; d * width < FAR; d *= 1.12) {
-            const double bend = bend_at(&s, d);
-            if (p == 0 && bend >= LOBE_BEND) out->wing = fmax(out->wing, d * sqrt(bend));
-            const double end = 1.12 * d * width < FAR ? 1.12 * d * cos(s.half_phase) : HUGE_VAL;
-            for (int j = 0; j < LOBE_ENDS && bend >= LOBE_BEND * (double)(1 << 2 * j); j++)
-                out->end[j] = fmax(out->end[j], end);
-        }
+    double wing = 0.0;
+    for (double d = 1.0; d * s->width < FAR; d *= 1.12) {
+        const double bend = bend_at(s, d), next = 1.12 * d;
+        if (bend >= LOBE_BEND) wing = fmax(wing, d * sqrt(bend));
+        for (int j = 0; j < LOBE_ENDS && bend >= LOBE_BEND * (double)(1 << 2 * j); j++)
+            end[j] = fmax(end[j], next * s->width < FAR ? next : HUGE_VAL);
+    }
+    return wing;
+}
+
+/* Looks how a lobe falls and to where. What it stands out from changes with the phase angle, and so
+ * does its width, for some. */
+static void look_at_wings(const brdf_lobe *lobe, lobe_shape *out)
+{
+    slice s = {lobe, out->width[1] < out->width[0], 0.0, 1.0 / out->narrow};
+    out->wing = find_ends(&s, out->end[0]);
+    for (int p = 0; p < LOBE_PHASES; p++) {
+        if (p > 0) memcpy(out->end[p], out->end[p - 1], sizeof out->end[p]);
+        s.half_phase = fmin(PHASE_STEP * (p + 1), PHASE_LAST);
+        find_ends(&s, out->end[p]);
     }
 }
 
+/* The row of lobe_shape.end for directions whose sum is so long. */
+static int phase_of(double hlen)
+{
+    int p = 0;
+    while (p + 1 < LOBE_PHASES && hlen < PHASE_HLEN[p])
+        p++;
+    return p;
+}
+
+/* How much wider than in the last row they may be at phase angles beyond it. */
+static double room_at(double hlen)
+{
+    return hlen < PHASE_LAST_HLEN ? PHASE_LAST_HLEN / hlen : 1.0;
+}
+
 /* Past how many widths the middle of a disc of that size will do. */
-static double end_of(const lobe_shape *shape, double size)
+static double end_of(const double end[LOBE_ENDS], double size)
 {
     int j = 0;
     double bend = 4.0 * LOBE_BEND * size * size;
     for (; j + 1 < LOBE_ENDS && bend <= POINT_ERROR; j++)
         bend *= 4.0;
-    return shape->end[j];
+    return end[j];
 }
 
 void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
@@ -387,8 +415,8 @@ static void push_patch(const scene *s, const patch *p)
 static void push_set(const scene *s)
 {
     const double u = s->disc->limb_darkened ? SUN_LIMB_DARKENING : 0.0;
-    const double x = fmin(1.0, s->i[2] / s->scale), x2 = x * x;
-    const double a = (sqrt(fmax(0.0, 1.0 - x2)) * (2.0 + x2) / 3.0 + x * (0.5 * PI + asin(x))) / PI;
+    const double x = s->i[2] < s->scale ? s->i[2] / s->scale : 1.0, x2 = x * x;
+    const double a = (sqrt(1.0 - x2) * (2.0 + x2) / 3.0 + x * (0.5 * PI + asin(x))) / PI;
     const double polynomial = 0.125 + x / 3.0 + x2 / 4.0 - x2 * x2 / 24.0;
     const double up = s->scale * ((1.0 - u) * a + u * polynomial) / (1.0 - u / 3.0);
     const double level = sqrt((1.0 - up * up) / (s->i[0] * s->i[0] + s->i[1] * s->i[1]));
@@ -508,8 +536,8 @@ static int lobe_rule(const lobe_shape *shape, double scale, const double h[3], d
 {
     const double up = 1.0 / (h[2] > 1e-30 ? h[2] : 1e-30), x = h[0] * up, y = h[1] * up;
     const double t2 = x * x + y * y, tilt = sqrt(t2), way = BISECTOR_WAY * scale / hlen;
-    const double size = way * shape->narrow * (1.0 + t2), wide = 2.0 / hlen;
-    const double end = shape->specular ? 0.0 : wide * end_of(shape, size);
+    const double size = way * shape->narrow * (1.0 + t2);
+    const double end = shape->specular ? 0.0 : room_at(hlen) * end_of(shape->end[phase_of(hlen)], size);
     /* The nearest that the bisector can come to the lobe's top: by the tangents of angles. */
     if (tilt - way > end * widest_of(shape) * (1.0 + tilt * way)) return DISC_CENTRE;
     if (shape->specular) return DISC_NARROW;
@@ -683,16 +711,16 @@ static tilts either(tilts a, tilts b)
  * larger, and the bisector no shorter, than that. */
 static tilts tilts_at_ease(const lobe_shape *shape, double scale, double hlen)
 {
-    const double way = BISECTOR_WAY * scale / hlen, wide = 2.0 / hlen * widest_of(shape);
+    const double way = BISECTOR_WAY * scale / hlen, wide = room_at(hlen) * widest_of(shape);
     if (shape->specular) return (tilts){way, HUGE_VAL};
     const double size = way * shape->narrow, narrow = 1.0 / widest_of(shape), wing = shape->wing;
-    const double limit = sqrt(POINT_ERROR);
+    const double limit = sqrt(POINT_ERROR), *end = shape->end[phase_of(hlen)];
     /* Past each end, up to where the disc is too large for it. */
-    tilts past = {tilt_past(wide * shape->end[0], way), HUGE_VAL};
+    tilts past = {tilt_past(wide * end[0], way), HUGE_VAL};
     for (int j = 1; j < LOBE_ENDS; j++) {
         const double most = limit / sqrt(LOBE_BEND * (double)(1 << 2 * j));
         past =
-            either(past, (tilts){tilt_past(wide * shape->end[j], way), tilt_of_size(size, most)});
+            either(past, (tilts){tilt_past(wide * end[j], way), tilt_of_size(size, most)});
     }
     /* `least` of rule_for */
     const tilts small = {-1.0, tilt_of_size(size, limit / sqrt(2.0))};

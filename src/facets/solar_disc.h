@@ -13,7 +13,7 @@
 #include "facets/batch.h"
 #include "facets/model.h"
 
-enum { LOBE_ENDS = 7 };
+enum { LOBE_PHASES = 4, LOBE_ENDS = 7 };
 /* A bend that needs no care under discs of 2 widths. */
 #define LOBE_BEND 1e-3
 
@@ -22,8 +22,9 @@ typedef struct lobe_shape {
     double width[2]; /* rad, along and across the tangent, at most LOBE_WIDEST */
     double narrow;   /* 1 / the smaller one */
     double reach;    /* past it nothing is left, in widths, at phase angle 0; may be infinite */
-    /* Past end[j] f bends by less than LOBE_BEND 4^j per width^2; widths, may be infinite. */
-    double end[LOBE_ENDS];
+    /* Past end[p][j] f bends by less than LOBE_BEND 4^j per width^2 at phase angles up to 40 deg (p
+     * + 1), the last p also beyond; widths, may be infinite. */
+    double end[LOBE_PHASES][LOBE_ENDS];
     bool specular; /* all of it in the mirror direction */
     bool surge;    /* f changes over less than a few degrees of the phase angle */
     double wing;   /* power of the distance from its top with which it falls at most */
