@@ -52,6 +52,11 @@ enum {
  * DISC_CENTRE where the middle of the disc will do, or none of it is seen to shine. */
 int disc_rule_of(const disc_sample *sample, const double i[3], const double r[3]);
 
+/* The same for a disc whose size and distance from the lobe's top are known, in widths of the lobe:
+ * any rule but DISC_SET. */
+int disc_rule_at(const disc_sample *sample, const double i[3], const double r[3], double size,
+                 double distance);
+
 /* Adds the mean over the disc, by that rule of disc_rule_of, of the light of matter of that area.
  * Points of the disc below the horizon give nothing. */
 void disc_push(batch *b, const disc_sample *sample, int rule, const double i[3], const double r[3],
@@ -70,6 +75,11 @@ typedef struct disc_queue {
     int lane[BRDF_TILE], n;
     double sum[BRDF_TILE]; /* by lane, m^2/sr */
 } disc_queue;
+
+/* The same for a disc whose size and distance from the lobe's top are known, in widths of the lobe:
+ * any rule but DISC_SET. */
+int disc_rule_at(const disc_sample *sample, const double i[3], const double r[3], double size,
+                 double distance);
 
 /* Adds the mean over the disc, by that rule, of a facet's light; scale: of source_disc. */
 void disc_queue_push(disc_queue *q, const brdf_material *material, const disc_rule *rule,
