@@ -287,7 +287,7 @@ static void widen_by_disc(const curved_tile *t, int lane, scene *s)
 
 static void add_pieces(curved_tile *t, int k, int lane, const double frame[9], double part)
 {
-    scene s = {.batch = &t->batch,
+    scene s = {.batch = t->batch,
                .lane = lane,
                .width = {t->lobe->width[0], t->lobe->width[1]},
                .narrow = {1.0 / t->lobe->width[0], 1.0 / t->lobe->width[1]},

@@ -2,7 +2,6 @@
 
 #include "base/vec.h"
 #include "facets/curved_parts.h"
-#include "facets/spread.h"
 
 /* Facets that are handed to the kernel together. Their number is fixed, so that a lane's sum is the
  * same whatever the other lanes are. */
@@ -11,6 +10,7 @@ enum { CHUNK = 16 };
 /* One lobe on its way over the facets. */
 typedef struct lobe_run {
     curved_tile tile;
+    batch batch;
     bool curved, disc; /* what must be looked for */
     disc_queue queues[DISC_RULES];
     brdf_watch watch;      /* for the disc */
@@ -62,10 +62,10 @@ static uint32_t add_facet(void *finder, int which, uint32_t lanes)
         const double area_m2 = (left ? left[lane] : 1.0) * t->facets->area[k];
         if (!(area_m2 > 0.0)) continue;
         if (rule < DISC_RULES)
-            disc_queue_push(&run->queues[rule], t->batch.material, &t->disc->rules[rule],
+            disc_queue_push(&run->queues[rule], t->batch->material, &t->disc->rules[rule],
                             t->disc->scale[lane], lane, i, r, area_m2);
         else
-            disc_push(&t->batch, &sample, rule, i, r, area_m2);
+            disc_push(t->batch, &sample, rule, i, r, area_m2);
     }
     return taken;
 }
@@ -88,7 +88,7 @@ static void add_facets(lobe_run *run, int first, int n, const double *left, doub
     some.watch = run->disc ? &run->watch : NULL;
     run->first = first;
     run->left = left;
-    brdf_material_tile(run->tile.batch.material, &some, run->tile.light, left, sum);
+    brdf_material_tile(run->batch.material, &some, run->tile.light, left, sum);
 }
 
 /* A chunk of curved facets: those whose highlight is near by themselves. */
@@ -104,26 +104,39 @@ static void add_chunk(lobe_run *run, int first, int n, double sum[BRDF_TILE])
     add_facets(run, first, n, any ? left[0] : seen, sum);
 }
 
+static void flush_queues(lobe_run *run, double sum[BRDF_TILE])
+{
+    for (int k = 0; k < DISC_RULES; k++) {
+        disc_queue *q = &run->queues[k];
+        disc_queue_flush(q, run->batch.material, &run->tile.disc->rules[k]);
+        for (int lane = 0; lane < BRDF_TILE; lane++)
+            sum[lane] += q->sum[lane];
+    }
+}
+
 static void add_lobe(lobe_run *run, double sum[BRDF_TILE])
 {
     const int n = run->tile.facets->n;
-    if (run->disc) {
-        run->watch.finder = run;
-        run->watch.found = add_facet;
-        run->disc = disc_watch_set(run->tile.shape, run->tile.light, run->tile.disc, &run->watch);
-    }
     if (run->curved) curved_tile_start(&run->tile);
     for (int first = 0; run->curved && first < n; first += CHUNK)
         add_chunk(run, first, n - first < CHUNK ? n - first : CHUNK, sum);
     if (!run->curved) add_facets(run, 0, n, run->visible, sum);
-    batch_flush(&run->tile.batch);
+    batch_flush(&run->batch);
     for (int lane = 0; lane < BRDF_TILE; lane++)
-        sum[lane] += run->tile.batch.sum[lane];
-    for (int k = 0; run->disc && k < DISC_RULES; k++) {
-        disc_queue *q = &run->queues[k];
-        disc_queue_flush(q, run->tile.batch.material, &run->tile.disc->rules[k]);
-        for (int lane = 0; lane < BRDF_TILE; lane++)
-            sum[lane] += q->sum[lane];
+        sum[lane] += run->batch.sum[lane];
+    if (run->disc) flush_queues(run, sum);
+}
+
+/* The disc matters where it is one in some lane. The run is large: what need not be set is not. */
+static void start_disc(lobe_run *run)
+{
+    const curved_tile *t = &run->tile;
+    run->watch.finder = run;
+    run->watch.found = add_facet;
+    run->disc = t->disc && disc_watch_set(t->shape, t->light, t->disc, &run->watch);
+    for (int k = 0; k < DISC_RULES; k++) {
+        run->queues[k].n = 0;
+        memset(run->queues[k].sum, 0, sizeof run->queues[k].sum);
     }
 }
 
@@ -134,8 +147,10 @@ void lobe_tile(const curved_span *curved, int band, const brdf_material *materia
     const curved_lobe *lobes = curved ? curved->lobes + curved->first_lobe[band] : NULL;
     for (int k = 0; k < material->n_lobes; k++) {
         const brdf_material one = {.n_lobes = 1, .lobes = &material->lobes[k]};
-        lobe_run run = {.curved = lobes && lobes[k].active, .disc = disc, .visible = visible};
-        if (!run.curved && !run.disc) {
+        lobe_run run;
+        run.curved = lobes && lobes[k].active;
+        run.visible = visible;
+        if (!run.curved && !disc) {
             brdf_material_tile(&one, facets, light, visible, sum);
             continue;
         }
@@ -145,7 +160,9 @@ void lobe_tile(const curved_span *curved, int band, const brdf_material *materia
                                  .facets = facets,
                                  .light = light,
                                  .disc = disc,
-                                 .batch = {.material = &one}};
+                                 .batch = &run.batch};
+        batch_start(&run.batch, &one);
+        start_disc(&run);
         add_lobe(&run, sum);
     }
 }

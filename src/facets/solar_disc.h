@@ -68,7 +68,7 @@ void disc_push(batch *b, const disc_sample *sample, int rule, const double i[3],
 bool disc_watch_set(const lobe_shape *shape, const brdf_light *light, const source_disc *disc,
                     brdf_watch *out);
 
-/* Samples that wait for the same rule; zero-initialise. */
+/* Samples that wait for the same rule; set n and sum to 0. */
 typedef struct disc_queue {
     _Alignas(64) double i[3][BRDF_TILE], r[3][BRDF_TILE]; /* unit; t, b, n */
     double scale[BRDF_TILE], area_m2[BRDF_TILE];
