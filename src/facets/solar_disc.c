@@ -1,84 +1,12 @@
 #include "facets/solar_disc.h"
 
+#include "base/clones.h"
 #include "base/constants.h"
 #include "base/gauss.h"
 #include "base/vec.h"
-#include "brdf/sharpness.h"
-#include "facets/lanes.h"
 
 #include <math.h>
-#include <stdint.h>
-
-/* A point Sun is off by size^2 (D^2 - 2)/8 of a Gaussian lobe's value: size is how far the bisector
- * runs while the source crosses from the middle of its disc to the rim, D how far the bisector is
- * from the lobe's top, both in widths of the lobe. Up to this size^2 max(2, D^2 - 2) the middle
- * alone is within 8e-4. */
-#define POINT_ERROR 6.4e-3
-/* And so near to opposition, in radii of the disc, powders have cusps. */
-#define OPPOSITION 8.0
-
-/* Whether f changes at once when the two directions, 50 deg from the normal, part by 1 deg. */
-static bool has_surge(const brdf_lobe *lobe)
-{
-    static const double CHANGE = 0.02;
-    const double away = sin(50 * DEG), up = cos(50 * DEG), apart = 1 * DEG;
-    const double i[3] = {away, 0.0, up}, r[3] = {away * cos(apart), away * sin(apart), up};
-    const double together = lobe->model->eval(brdf_lobe_coef(lobe), i, i);
-    return fabs(lobe->model->eval(brdf_lobe_coef(lobe), i, r) - together) > CHANGE * together;
-}
-
-static double f_at(const brdf_lobe *lobe, double tilt)
-{
-    const double i[3] = {sin(tilt), 0.0, cos(tilt)};
-    return lobe->model->eval(brdf_lobe_coef(lobe), i, i) / (i[2] * i[2]);
-}
-
-/* How f, with all that the material reflects besides, bends at a distance from the lobe's top:
- * f''/f and f'/(f distance), per width^2. */
-static double bend_at(const brdf_lobe *lobe, double width, double distance)
-{
-    const double step = fmax(0.2, 0.05 * distance);
-    const double f = f_at(lobe, distance * width), on = f_at(lobe, (distance + step) * width);
-    const double before = f_at(lobe, (distance - step) * width);
-    if (!(f > 0.0)) return 0.0;
-    return (fabs(on - 2.0 * f + before) / (step * step) +
-            fabs(on - before) / (2.0 * step * distance)) /
-           f;
-}
-
-/* Looks how a lobe of that width falls: as a power of the distance at most, and to where. */
-static void look_at_wings(const brdf_lobe *lobe, double width, lobe_shape *out)
-{
-    static const double FAR = 1.2;     /* rad */
-    static const double SLIGHT = 1e-3; /* bends that need no care, under discs of two widths */
-    out->wing = 0.0;
-    out->end = 0.0;
-    for (double d = 1.0; d * width < FAR; d *= 1.12) {
-        const double bend = bend_at(lobe, width, d);
-        if (bend < SLIGHT) continue;
-        out->wing = fmax(out->wing, d * sqrt(bend));
-        out->end = 1.12 * d;
-    }
-    if (out->end * width > 0.8 * FAR) out->end = HUGE_VAL;
-}
-
-void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
-{
-    *out = (lobe_shape){.specular = lobe->model->specular != NULL};
-    if (out->specular) {
-        out->narrow = HUGE_VAL;
-        return;
-    }
-    brdf_sharpness sharpness;
-    brdf_lobe_sharpness(lobe, &sharpness);
-    for (int j = 0; j < 2; j++) {
-        out->width[j] = fmin(sharpness.width[j], LOBE_WIDEST);
-        out->reach = fmax(out->reach, sharpness.reach[j] / out->width[j]);
-    }
-    out->narrow = 1.0 / fmin(out->width[0], out->width[1]);
-    out->surge = has_surge(lobe);
-    look_at_wings(lobe, 1.0 / out->narrow, out);
-}
+#include <string.h>
 
 /* --- the disc's own moments --- */
 
@@ -412,8 +340,8 @@ static void push_patch(const scene *s, const patch *p)
 static double mean_height(const scene *s)
 {
     const double u = s->disc->limb_darkened ? SUN_LIMB_DARKENING : 0.0;
-    const double x = fmin(1.0, s->i[2] / s->scale), x2 = x * x;
-    const double a = (sqrt(fmax(0.0, 1.0 - x2)) * (2.0 + x2) / 3.0 + x * (0.5 * PI + asin(x))) / PI;
+    const double x = s->i[2] < s->scale ? s->i[2] / s->scale : 1.0, x2 = x * x;
+    const double a = (sqrt(1.0 - x2) * (2.0 + x2) / 3.0 + x * (0.5 * PI + asin(x))) / PI;
     const double polynomial = 0.125 + x / 3.0 + x2 / 4.0 - x2 * x2 / 24.0;
     return s->scale * ((1.0 - u) * a + u * polynomial) / (1.0 - u / 3.0);
 }
@@ -525,49 +453,16 @@ static void push_mirror(const scene *s)
                                       bright / (PI * sine * sine);
 }
 
-/* The cheapest rule that will do, DISC_NARROW where the disc is large against the lobe. size of the
- * disc and distance from the lobe's top in its widths. */
-static inline double rule_for(double size, double distance, double wing)
-{
-    const double far = distance > 1.0 ? distance : 1.0, over = wing / far;
-    const double fall = distance < over ? distance : over;  /* of the logarithm, per width */
-    const double here = distance < 2.0 + size ? size : 0.0; /* the disc reaches the core */
-    const double bend = fall * fall;
-    const double least = here > 0.0 ? 2.0 : 0.0, steep = size * fall / 1.6;
-    const double change = steep > here ? steep : here;
-    const double finer = (change > 0.28 ? 1.0 : 0.0) + (change > 0.62 ? 1.0 : 0.0) +
-                         (change > 1.0 ? 1.0 : 0.0) + (change > 1.5 ? 1.0 : 0.0) +
-                         (change > 2.0 ? 1.0 : 0.0);
-    return size * size * (bend > least ? bend : least) > POINT_ERROR ? 1.0 + finer : 0.0;
-}
-
-_Static_assert(DISC_CENTRE == 0 && DISC_CROSS == 1 && DISC_FOUR == 5 && DISC_NARROW == 6,
-               "rule_for counts the limits that are passed");
-
-/* Powders have cusps at opposition. */
-static bool is_at_surge(const scene *s)
-{
-    double apart[3];
-    if (!s->sample->shape->surge) return false;
-    sub3(s->i, s->r, apart);
-    return norm3(apart) < OPPOSITION * s->scale;
-}
-
-static disc_rule_kind rule_of(const scene *s)
+/* The rule where the lobe is narrow, or seems so to disc_rule_of. */
+static int rule_of(const scene *s)
 {
     lean l;
-    double h[3];
-    const lobe_shape *shape = s->sample->shape;
-    add3(s->i, s->r, h);
-    const bool has_lean = lean_at(s, s->middle, 0.0, &l);
-    const double size = has_lean ? largest_size(&l) : 0.0;
-    const double distance = has_lean ? sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]) : 0.0;
-    const bool past = (distance - size) * norm3(h) > 2.0 * shape->end;
-    const int rule = past ? DISC_CENTRE : (int)rule_for(size, distance, shape->wing);
-    return is_at_surge(s) && rule < DISC_FOUR ? DISC_FOUR : (disc_rule_kind)rule;
+    if (!lean_at(s, s->middle, 0.0, &l)) return DISC_CENTRE;
+    const double distance = sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]);
+    return disc_rule_at(s->sample, s->i, s->r, largest_size(&l), distance);
 }
 
-void disc_push(batch *b, const disc_sample *sample, const double i[3], const double r[3],
+void disc_push(batch *b, const disc_sample *sample, int rule, const double i[3], const double r[3],
                double area_m2)
 {
     scene s = {.batch = b,
@@ -575,18 +470,16 @@ void disc_push(batch *b, const disc_sample *sample, const double i[3], const dou
                .disc = sample->disc,
                .scale = sample->disc->scale[sample->lane],
                .area_m2 = area_m2};
-    if (!(r[2] > BRDF_EDGE)) return;
     look_at(&s, i, r);
     if (sample->shape->specular) {
         push_mirror(&s);
         return;
     }
-    if (s.i[2] <= -s.scale) return; /* all of it has set */
     const bool sets = s.i[2] < s.scale;
     s.horizon = sets ? -s.i[2] / (s.scale * s.e1[2]) : -1.0;
     s.middle = sets ? 0.5 * (1.0 + s.horizon) : 0.0;
-    const disc_rule_kind rule = rule_of(&s);
-    if ((int)rule == DISC_NARROW || (sets && rule != DISC_CENTRE))
+    if (rule == DISC_NARROW || rule == DISC_SET) rule = rule_of(&s);
+    if (rule == DISC_NARROW || (sets && rule != DISC_CENTRE))
         push_narrow(&s);
     else if (sets)
         push_set(&s);
@@ -619,8 +512,9 @@ CLONES static void find_axes(const disc_queue *q, double e1[3][BRDF_TILE], doubl
     }
 }
 
-CLONES static void move_source(const disc_queue *q, const double e1[3][BRDF_TILE],
-                               const double e2[3][BRDF_TILE], double x, double y, brdf_light *light)
+CLONES static void move_source(const disc_queue *restrict q, const double e1[restrict 3][BRDF_TILE],
+                               const double e2[restrict 3][BRDF_TILE], double x, double y,
+                               brdf_light *restrict light)
 {
     for (int k = 0; k < BRDF_TILE; k++) {
         const double a = q->scale[k] * x, b = q->scale[k] * y;
@@ -673,81 +567,4 @@ void disc_queue_push(disc_queue *q, const brdf_material *material, const disc_ru
     q->area_m2[k] = area_m2;
     q->lane[k] = lane;
     if (q->n == BRDF_TILE) disc_queue_flush(q, material, rule);
-}
-
-/* --- which lanes --- */
-
-/* What is the same for all lanes of a facet. */
-typedef struct facet_axes {
-    double n[3], t[3], b[3];
-} facet_axes;
-
-/* Rules for lanes in which the facet is lit by some of the disc and seen: where the disc is about
- * to set, or the two directions are near to each other. lit: 1, else 0. Returns how many are lit.
- */
-CLONES FLATTEN static double find_lit(const facet_axes *f, const brdf_light *light,
-                                      const source_disc *disc, double opposition,
-                                      double lit[BRDF_TILE], double rule[BRDF_TILE])
-{
-    const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2];
-    for (int k = 0; k < BRDF_TILE; k++) {
-        const double q = disc->scale[k], near = opposition * q;
-        const double ci = n0 * light->i[0][k] + n1 * light->i[1][k] + n2 * light->i[2][k];
-        const double cr = n0 * light->r[0][k] + n1 * light->r[1][k] + n2 * light->r[2][k];
-        const double up = q > 0.0 ? ci + q : -1.0, both = up < cr - BRDF_EDGE ? up : cr - BRDF_EDGE;
-        const double surge = light->hh[k] > 4.0 - near * near ? DISC_FOUR : 0.0;
-        const double special = ci < q ? DISC_SET : surge;
-        lit[k] = both > 0.0 ? 1.0 : 0.0;
-        rule[k] = both > 0.0 ? special : 0.0;
-    }
-    double n = 0.0;
-    for (int k = 0; k < BRDF_TILE; k++)
-        n += lit[k];
-    return n;
-}
-
-/* rule_for in all lanes; size is an upper bound, as the source's way may be foreshortened. */
-CLONES FLATTEN static void find_blurred(const lobe_shape *shape, const facet_axes *f,
-                                        const brdf_light *light, const source_disc *disc,
-                                        const double lit[BRDF_TILE], double rule[BRDF_TILE])
-{
-    const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2], t0 = f->t[0], t1 = f->t[1];
-    const double t2 = f->t[2], b0 = f->b[0], b1 = f->b[1], b2 = f->b[2];
-    /* A mirror's width is taken as 1 rad: its lobe is over at once. */
-    const double narrow_x = shape->specular ? 1.0 : 1.0 / shape->width[0];
-    const double narrow_y = shape->specular ? 1.0 : 1.0 / shape->width[1];
-    const double narrow = shape->specular ? 1.0 : shape->narrow;
-    const double end = shape->end < HUGE_VAL ? 2.0 * shape->end : 1e30;
-    const double wing = shape->wing;
-    const double always = shape->specular ? (double)DISC_NARROW : 0.0;
-    for (int k = 0; k < BRDF_TILE; k++) {
-        const double h0 = light->h[0][k], h1 = light->h[1][k], h2 = light->h[2][k];
-        const double hn = n0 * h0 + n1 * h1 + n2 * h2, up = 1.0 / (hn > 1e-30 ? hn : 1e-30);
-        const double x = (t0 * h0 + t1 * h1 + t2 * h2) * up;
-        const double y = (b0 * h0 + b1 * h1 + b2 * h2) * up;
-        const double distance = sqrt(x * x * narrow_x * narrow_x + y * y * narrow_y * narrow_y);
-        const double size = 1.01 * disc->scale[k] * narrow * up * sqrt(1.0 + x * x + y * y);
-        const double ruled = rule_for(size, distance, wing), here = ruled > always ? ruled : always;
-        const double inside = (distance - size) * light->hlen[k] <= end ? lit[k] * here : 0.0;
-        const double best = inside > rule[k] ? inside : rule[k];
-        rule[k] = inside == DISC_NARROW ? inside : best;
-    }
-}
-
-bool disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
-                   const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE])
-{
-    facet_axes f;
-    _Alignas(64) double lit[BRDF_TILE], any = 0.0;
-    for (int j = 0; j < 3; j++) {
-        f.n[j] = facets->normal[j][which];
-        f.t[j] = facets->tangent[j][which];
-        f.b[j] = facets->bitangent[j][which];
-    }
-    if (find_lit(&f, light, disc, shape->surge ? OPPOSITION : 0.0, lit, rule) == 0.0) return false;
-    if (shape->specular || shape->narrow > 1.0 / LOBE_WIDEST)
-        find_blurred(shape, &f, light, disc, lit, rule);
-    for (int k = 0; k < BRDF_TILE; k++)
-        any += rule[k];
-    return any != 0.0;
 }
