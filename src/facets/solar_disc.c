@@ -470,6 +470,12 @@ void disc_push(batch *b, const disc_sample *sample, int rule, const double i[3],
                .disc = sample->disc,
                .scale = sample->disc->scale[sample->lane],
                .area_m2 = area_m2};
+    if (rule == DISC_SET && sample->shape->narrow <= 1.0 / LOBE_WIDEST) { /* no lobe to look for */
+        copy3(i, s.i);
+        copy3(r, s.r);
+        push_set(&s);
+        return;
+    }
     look_at(&s, i, r);
     if (sample->shape->specular) {
         push_mirror(&s);
@@ -478,8 +484,13 @@ void disc_push(batch *b, const disc_sample *sample, int rule, const double i[3],
     const bool sets = s.i[2] < s.scale;
     s.horizon = sets ? -s.i[2] / (s.scale * s.e1[2]) : -1.0;
     s.middle = sets ? 0.5 * (1.0 + s.horizon) : 0.0;
-    if (rule == DISC_NARROW || rule == DISC_SET) rule = rule_of(&s);
-    if (rule == DISC_NARROW || (sets && rule != DISC_CENTRE))
+    if (sets) { /* a lobe that is narrow at the disc's middle may be over for what is up */
+        double up[3];
+        point_at(&s, s.middle, 0.0, up);
+        rule = disc_rule_of(sample, up, r);
+    }
+    if (rule == DISC_NARROW) rule = rule_of(&s);
+    if (rule == DISC_NARROW)
         push_narrow(&s);
     else if (sets)
         push_set(&s);
