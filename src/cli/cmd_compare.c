@@ -15,9 +15,10 @@ static glint_status compare(const glint_scenario *scenario, const options *o)
     glint_error error = {0};
     glint_comparison *comparison = NULL;
     glint_status status = output_check(scenario, o->output, &error);
-    if (!status) status = glint_compare(scenario, &comparison, &error);
+    if (!status) status = output_check(scenario, o->plot, &error);
+    if (!status) status = glint_compare(scenario, o->threads, &comparison, &error);
     if (!status) status = glint_comparison_write(comparison, format_of(o), o->output, &error);
-    if (!status && o->plot) status = glint_comparison_plot(comparison, o->plot, &error);
+    if (!status && o->plot) status = glint_comparison_plot(comparison, o->threads, o->plot, &error);
     glint_comparison_free(comparison);
     if (status == GLINT_OUTPUT && !o->output && output_reader_left()) return status;
     if (status) report_error(&error);
@@ -27,7 +28,7 @@ static glint_status compare(const glint_scenario *scenario, const options *o)
 glint_status cmd_compare(const options *o)
 {
     glint_error error;
-    if (o->plot && glint_plot_check(o->plot, &error)) {
+    if (output_check_plot(o->output, o->plot, &error)) {
         report_error(&error);
         return error.status;
     }
