@@ -120,7 +120,7 @@ static inline void brdf_tile_run(const double *coef, double weight, const brdf_f
     _Alignas(64) double ci[BRDF_TILE], cr[BRDF_TILE], scale[BRDF_TILE];
     for (int f = 0; f < facets->n; f++) {
         const int64_t seen = tile_cosines(facets, f, light, kind, ci, cr);
-        const uint32_t shown = (uint32_t)seen;
+        const uint32_t shown = kind == WATCH_NOTHING ? 0 : (uint32_t)seen;
         const int64_t taken = shown ? facets->watch->found(facets->watch->finder, f, shown) : 0;
         if (!(seen & TILE_LIT)) continue;
         const double *part = visible ? visible + (size_t)f * BRDF_TILE : NULL;
