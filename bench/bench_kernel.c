@@ -10,6 +10,7 @@
 #include "naive.h"
 #include "timing.h"
 
+#include "base/clones.h"
 #include "base/constants.h"
 #include "base/vec.h"
 #include "brdf/brdf.h"
@@ -24,13 +25,6 @@ enum { ROUNDS = 7 };
 static const double AT_LEAST_S = 0.03; /* of each measurement */
 static const double STEP_DEG = 0.5;    /* by which a body in coherent motion turns each step */
 static const double PHASE_DEG = 60.0;
-
-/* As the kernel's: one binary for three generations of x86-64. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__GLIBC__)
-#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define CLONES
-#endif
 
 typedef struct model_case {
     const char *name;
