@@ -31,6 +31,10 @@ glint_status output_check(const glint_scenario *scenario, const char *path, glin
  * GLINT_OUTPUT. */
 glint_status output_close_stdout(bool *reader_left, glint_error *error);
 
+/* Reports an error of a command that writes to `path` (NULL: standard output), unless it is that
+ * the reader of a pipe has left; returns its status. */
+glint_status output_fail(const char *path, const glint_error *error);
+
 /* True when stdout is a pipe that nobody reads any more (`glint run ... | head`). */
 bool output_reader_left(void);
 

@@ -15,15 +15,8 @@ static void csv_header(const glint_ephemeris *e, text *t)
     const glint_column *columns = glint_ephemeris_columns(e, &n);
     bool in_list = false;
     ecsv_begin(t, columns, n);
-    for (size_t k = 0; glint_ephemeris_fact(e, k, &key, &value); k++) {
-        const bool of_list = string_equal(key, "set"); /* keys of a YAML map are unique */
-        if (of_list && !in_list) ecsv_list(t, key);
-        in_list = of_list;
-        if (of_list)
-            ecsv_item(t, value, strlen(value));
-        else
-            ecsv_fact(t, key, value);
-    }
+    for (size_t k = 0; glint_ephemeris_fact(e, k, &key, &value); k++)
+        ecsv_run_fact(t, key, value, &in_list);
     ecsv_end(t, columns, n);
 }
 

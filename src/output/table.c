@@ -12,20 +12,13 @@
 /* Rows that one thread formats at a time. */
 enum { CHUNK = 256 };
 
-/* What is known of the run. Keys of a YAML map are unique, so what was set makes one list. */
+/* What is known of the run. */
 static void write_facts(const glint_curve *curve, text *t)
 {
     const char *key, *value;
     bool in_list = false;
-    for (size_t k = 0; glint_curve_fact(curve, k, &key, &value); k++) {
-        const bool of_list = string_equal(key, "set");
-        if (of_list && !in_list) ecsv_list(t, key);
-        in_list = of_list;
-        if (of_list)
-            ecsv_item(t, value, strlen(value));
-        else
-            ecsv_fact(t, key, value);
-    }
+    for (size_t k = 0; glint_curve_fact(curve, k, &key, &value); k++)
+        ecsv_run_fact(t, key, value, &in_list);
 }
 
 static void write_header(const glint_curve *curve, text *t)
