@@ -337,6 +337,50 @@ START_TEST(test_passes_meet_the_shadow_of_the_reference)
 }
 END_TEST
 
+/* The Moon begins to cover the Sun between those rows of the other program where the gap between
+ * the rims changes its sign, and leaves it likewise: nearly where a straight line through the gaps
+ * passes 0. The chord of a curve over these 6 min, 18 min where the Moon begins, is off it by some
+ * seconds; the Moon's place, by 0.3 km. */
+START_TEST(test_passes_meet_the_shadow_of_the_moon)
+{
+    csv_table t = table_open(TEST_DATA_DIR "/orbit/moon_shadow.csv");
+    static const char TIME[] =
+        "[time]\nstart = 2025-03-29T04:00:00Z\nduration_s = 10800\nstep_s = 60\n";
+    static const char OBSERVER[] = "[observer]\nlatitude_deg = 0\nlongitude_deg = 65\n";
+    static const char ORBIT[] = "[orbit]\ncircular = { geostationary_longitude_deg = 65 }\n";
+    static const double TOLERANCE_S = 12;
+    glint_scenario *s = read_orbit_only(TIME, OBSERVER, ORBIT, "");
+    glint_passes *passes = find(s, 0, 1);
+    ck_assert_uint_eq(glint_passes_count(passes), 1);
+    const glint_pass *p = glint_passes_get(passes, 0);
+    double before_s = 0, gap_before = NAN;
+    int found = 0;
+    for (long row = 0; row < t.n_rows; row++) {
+        int hour, minute;
+        if (strncmp(table_text(&t, row, "utc"), "2025-03-29", 10) != 0) continue;
+        ck_assert_int_eq(sscanf(table_text(&t, row, "utc") + 11, "%d:%d", &hour, &minute), 2);
+        const double t_s = 3600.0 * (hour - 4) + 60.0 * minute;
+        const double gap = table_number(&t, row, "separation_deg") -
+                           table_number(&t, row, "sun_radius_deg") -
+                           table_number(&t, row, "moon_radius_deg");
+        if ((gap_before < 0 && gap > 0) || (gap_before > 0 && gap < 0)) {
+            const glint_pass_event *e =
+                event(p, gap < 0 ? GLINT_MOON_SHADOW_BEGIN : GLINT_MOON_SHADOW_END);
+            ck_assert_ptr_nonnull(e);
+            const double crossed = gap_before / (gap_before - gap);
+            assert_near(e->t_s, before_s + crossed * (t_s - before_s), TOLERANCE_S);
+            assert_near(e->sunlit_fraction, 1, 1e-9); /* as at the edges of the Earth's shadow */
+            found++;
+        }
+        before_s = t_s, gap_before = gap;
+    }
+    ck_assert_int_eq(found, 2);
+    csv_free(&t);
+    glint_passes_free(passes);
+    glint_scenario_free(s);
+}
+END_TEST
+
 /* ------------------------------------------------------------------ brightness */
 
 /* A shiny plate in inertial attitude: its normal bisects Sun and observer at one moment. */
@@ -749,6 +793,7 @@ int main(void)
     tcase_add_test(tc, test_passes_find_grazing_ones);
     tcase_add_test(tc, test_passes_agree_with_rows);
     tcase_add_test(tc, test_passes_meet_the_shadow_of_the_reference);
+    tcase_add_test(tc, test_passes_meet_the_shadow_of_the_moon);
     tcase_add_test(tc, test_passes_find_a_flash_where_it_was_put);
     tcase_add_test(tc, test_passes_find_all_flashes_of_a_turning_box);
     tcase_add_test(tc, test_passes_find_all_flashes_of_fast_slews);

@@ -22,6 +22,8 @@ struct glint_passes {
 typedef struct pass_search {
     const glint_scenario *s;
     bool has_light; /* attitude and satellite are there */
+    watch all;      /* owned; has the frames of the whole run: a node of them takes as long as
+                       hundreds of looks, and several sites and all searches go through them */
     double flash_angle;
     visibility *plan;    /* owned */
     mirror_list mirrors; /* owned */
@@ -71,6 +73,7 @@ static int event_order(const void *a, const void *b)
 typedef enum edge_kind {
     EDGE_UMBRA,    /* > 0: some of the Sun is seen */
     EDGE_PENUMBRA, /* > 0: all of it */
+    EDGE_MOON,     /* > 0: the Moon covers nothing of it */
     EDGE_DARKNESS, /* > 0: the site is dark */
     N_EDGES
 } edge_kind;
@@ -93,6 +96,10 @@ static glint_status edge_at(void *context, double t_s, double *y, glint_error *e
         *y = s->sun_elevation_max - sighting_sun_elevation(s, e->w->viewer.observer, &seen);
         return GLINT_OK;
     }
+    if (e->kind == EDGE_MOON) {
+        *y = sighting_moon_gap(e->w->s, &e->w->viewer, &seen);
+        return GLINT_OK;
+    }
     eclipse_discs discs;
     const moment *m = &seen.moment;
     eclipse_discs_at(m->r_m, m->sun, seen.sun_distance_m, m->itrs_gcrs + 6, &discs);
@@ -110,7 +117,7 @@ typedef struct edge {
 static glint_status find_edge(watch *w, const pass_span *span, edge_kind kind, edge *out,
                               glint_error *error)
 {
-    /* Both change with the satellite's or the Earth's turn: 200 samples of either leave 1.8 deg,
+    /* All change with the satellite's or the Earth's turn: 200 samples of either leave 1.8 deg,
      * within which the angles have one extremum. */
     static const double LEAST = 16, PER_TURN = 200;
     edge_search search = {w, kind};
@@ -134,6 +141,7 @@ static glint_status add_edges(watch *w, const edge *e, edge_kind kind, event_lis
     static const glint_event_kind KINDS[N_EDGES][2] = {
         {GLINT_UMBRA_BEGIN, GLINT_UMBRA_END},
         {GLINT_PENUMBRA_BEGIN, GLINT_PENUMBRA_END},
+        {GLINT_MOON_SHADOW_BEGIN, GLINT_MOON_SHADOW_END},
         {GLINT_DARKNESS_END, GLINT_DARKNESS_BEGIN},
     };
     bool above = e->above_at_start;
@@ -142,6 +150,8 @@ static glint_status add_edges(watch *w, const edge *e, edge_kind kind, event_lis
         const glint_status status =
             event_list_add(out, w, KINDS[kind][above], e->at.items[k], error);
         if (status) return status;
+        /* behind the Earth there is nothing for the Moon to cover */
+        if (kind == EDGE_MOON && out->items[out->n - 1].sunlit_fraction == 0) out->n--;
     }
     return GLINT_OK;
 }
@@ -190,7 +200,7 @@ static glint_status light_meter_aim(light_meter *meter, const double *t_s, int n
                                     glint_error *error)
 {
     watch *w = meter->w;
-    const glint_status status = watch_cover(w, t_s[0], error);
+    const glint_status status = watch_cover(w, t_s[0], t_s[0], error);
     if (status) return status;
     return geometry_fill_at(w->s, w->grid, 0, t_s, n, &meter->worker.geometry, &meter->worker.tile,
                             meter->worker.lights, error);
@@ -467,6 +477,7 @@ static glint_status fill_passes(const pass_search *p, const pass_span_list *span
 #pragma omp parallel num_threads(threads)
     {
         watch w = {.s = p->s};
+        watch_borrow(&w, &p->all);
         light_meter meter = {0};
         glint_error own = {0};
         glint_status status = p->has_light ? light_meter_make(&w, p->plan, &meter, &own) : GLINT_OK;
@@ -526,15 +537,15 @@ static glint_status check_call(const glint_scenario *s, const glint_pass_options
 static glint_status find_all(pass_search *p, int threads, glint_passes *out, glint_error *error)
 {
     pass_span_list spans = {0};
-    watch w = {.s = p->s};
-    glint_status status = GLINT_OK;
+    watch *w = &p->all;
+    *w = (watch){.s = p->s};
+    glint_status status = watch_cover(w, 0, p->s->span_s, error);
     for (int k = 0; k < p->s->n_observers && !status; k++) {
         if (p->s->observers[k].kind != OBSERVER_SITE) continue;
-        w.light_time_s = 0;
-        w.viewer = (viewer){.observer = &p->s->observers[k]};
-        status = pass_spans_find(&w, &spans, error);
+        w->light_time_s = 0;
+        w->viewer = (viewer){.observer = &p->s->observers[k]};
+        status = pass_spans_find(w, &spans, error);
     }
-    watch_free(&w);
     if (!status && p->has_light) status = tile_plan_shadows(p->s, &p->plan, error);
     if (!status && p->has_light)
         status = mirrors_of(&p->s->satellite, &p->s->attitude, &p->mirrors, error);
@@ -546,6 +557,7 @@ static glint_status find_all(pass_search *p, int threads, glint_passes *out, gli
     visibility_free(p->plan);
     free(p->mirrors.items);
     free(spans.items);
+    watch_free(w);
     return status;
 }
 
@@ -623,6 +635,8 @@ const char *glint_event_name(glint_event_kind kind)
         [GLINT_PENUMBRA_END] = "penumbra-end",
         [GLINT_PENUMBRA_BEGIN] = "penumbra-begin",
         [GLINT_UMBRA_BEGIN] = "umbra-begin",
+        [GLINT_MOON_SHADOW_BEGIN] = "moon-shadow-begin",
+        [GLINT_MOON_SHADOW_END] = "moon-shadow-end",
         [GLINT_DARKNESS_BEGIN] = "darkness-begin",
         [GLINT_DARKNESS_END] = "darkness-end",
         [GLINT_BRIGHTEST] = "brightest",
