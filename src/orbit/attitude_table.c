@@ -115,7 +115,8 @@ void attitude_table_add_row(attitude_reading *r, double t_s, const double q[4], 
         t->q[t->n][i] = q[i] / norm;
     t->t_s[t->n] = t_s;
     if (span->n > 0) {
-        const double angle = angle_between(t->q[t->n - 1], t->q[t->n]);
+        const double told = r->told_rad_s * (t_s - t->t_s[t->n - 1]);
+        const double angle = fmax(angle_between(t->q[t->n - 1], t->q[t->n]), told);
         if (angle > r->widest_rad) {
             r->widest_rad = angle;
             r->widest_where = where;
