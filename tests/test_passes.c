@@ -381,7 +381,63 @@ START_TEST(test_passes_meet_the_shadow_of_the_moon)
 }
 END_TEST
 
+/* On 8 April 2024 this satellite comes out of the Earth's shadow while the Moon covers a part of
+ * the Sun: that the Moon began to do so behind the Earth is no event, that it ends is one. */
+START_TEST(test_passes_leave_out_what_the_moon_does_behind_the_earth)
+{
+    static const char TIME[] =
+        "[time]\nstart = 2024-04-08T16:50:00Z\nduration_s = 2100\nstep_s = 60\n";
+    static const char OBSERVER[] =
+        "[observer]\nlatitude_deg = 48.2\nlongitude_deg = 16.37\nmin_elevation_deg = -90\n";
+    static const char ORBIT[] =
+        "[orbit]\ncircular = { height_km = 780, inclination_deg = 60, raan_deg = 80, "
+        "argument_of_latitude_deg = 132, epoch = 2024-04-08T12:00:00Z }\n";
+    glint_scenario *s = read_orbit_only(TIME, OBSERVER, ORBIT, "");
+    glint_passes *passes = find(s, 0, 1);
+    const glint_pass *p = glint_passes_get(passes, 0);
+    const glint_pass_event *out = event(p, GLINT_PENUMBRA_END);
+    const glint_pass_event *end = event(p, GLINT_MOON_SHADOW_END);
+    ck_assert(event(p, GLINT_UMBRA_BEGIN) && event(p, GLINT_UMBRA_END) && out && end);
+    ck_assert_ptr_null(event(p, GLINT_MOON_SHADOW_BEGIN));
+    ck_assert(out->sunlit_fraction > 0.1 && out->sunlit_fraction < 0.9);
+    ck_assert(end->t_s > out->t_s);
+    glint_passes_free(passes);
+    glint_scenario_free(s);
+}
+END_TEST
+
 /* ------------------------------------------------------------------ brightness */
+
+/* A mirror that is bent by 0.02 deg alone, so that it is none of the flat ones whose flashes are
+ * sought, on a geostationary satellite over the site: for two minutes of the day it throws the Sun
+ * there, when the Sun stands at twice its tilt of 22 deg. A white plate outshines it else, and is
+ * brightest at another time. Samples left out where little moves must not lose those minutes. */
+START_TEST(test_passes_find_a_narrow_peak_of_a_slow_satellite)
+{
+    static const char TEXT[] =
+        "[time]\nstart = 2025-09-23T00:00:00Z\nduration_s = 43200\nstep_s = 10\n"
+        "[observer]\nlatitude_deg = 0\nlongitude_deg = 10\n"
+        "[orbit]\ncircular = { geostationary_longitude_deg = 10 }\n"
+        "[attitude]\nlaw = \"nadir\"\n[photometry]\nsolar_disc = \"point\"\n"
+        "[materials.shiny]\nbrdf = \"ward-gmd\"\nrho_d = 0.02\nrho_s = 0.5\nalpha_x = 0.001\n"
+        "alpha_y = 0.001\n[materials.white]\nbrdf = \"lambert\"\nrho = 0.8\n"
+        "[[component]]\nname = \"dish\"\n[[component.dish]]\nradius_m = 1\ndepth_m = 0.0002\n"
+        "axis = [0.37460659341591203, 0, 0.9271838545667874]\nmaterial = \"shiny\"\n"
+        "[[component]]\nname = \"panel\"\n[[component.plate]]\nsize_m = [4, 4]\n"
+        "centre_m = [0, 20, 0]\nnormal = [0, 0, 1]\ntangent = [1, 0, 0]\nmaterial = \"white\"\n";
+    glint_scenario *s = read_sound(write_file("dish.toml", TEXT));
+    glint_passes *passes = find(s, 0, 1);
+    const glint_pass_event *best = event(glint_passes_get(passes, 0), GLINT_BRIGHTEST);
+    ck_assert_ptr_nonnull(best);
+    ck_assert_int_eq(best->has_magnitude, 1);
+    ck_assert_double_lt(best->magnitude, 0); /* the plate: 9.5 and fainter */
+    /* The phase angle is that between Sun and nadir; the Sun's declination, -0.1 deg, hardly adds.
+     */
+    assert_near(best->phase_angle_rad / DEG, 44, 0.03);
+    glint_passes_free(passes);
+    glint_scenario_free(s);
+}
+END_TEST
 
 /* A shiny plate in inertial attitude: its normal bisects Sun and observer at one moment. */
 static const char MIRROR[] =
@@ -794,6 +850,8 @@ int main(void)
     tcase_add_test(tc, test_passes_agree_with_rows);
     tcase_add_test(tc, test_passes_meet_the_shadow_of_the_reference);
     tcase_add_test(tc, test_passes_meet_the_shadow_of_the_moon);
+    tcase_add_test(tc, test_passes_leave_out_what_the_moon_does_behind_the_earth);
+    tcase_add_test(tc, test_passes_find_a_narrow_peak_of_a_slow_satellite);
     tcase_add_test(tc, test_passes_find_a_flash_where_it_was_put);
     tcase_add_test(tc, test_passes_find_all_flashes_of_a_turning_box);
     tcase_add_test(tc, test_passes_find_all_flashes_of_fast_slews);

@@ -1,11 +1,8 @@
 /* The picture of a satellite: its pieces in colours, edges, a scale, and what the colours mean. */
-#include "base/constants.h"
 #include "output/view_sketch.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* A picture that shrinks the layout by more has no room for words: it shows the satellite alone. */
 static const double LEAST_SHRINK = 0.5;
