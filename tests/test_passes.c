@@ -406,6 +406,41 @@ START_TEST(test_passes_leave_out_what_the_moon_does_behind_the_earth)
 }
 END_TEST
 
+/* The seconds of light and of light over a dark site are those between the events: for a satellite
+ * that stays up for days through the season of eclipses. */
+START_TEST(test_passes_seconds_of_light_lie_between_the_events)
+{
+    static const char TIME[] =
+        "[time]\nstart = 2025-03-20T12:00:00Z\nduration_s = 259200\nstep_s = 60\n";
+    static const char ORBIT[] = "[orbit]\ncircular = { geostationary_longitude_deg = 16 }\n";
+    glint_scenario *s = read_orbit_only(TIME, ISS_OBSERVER[0], ORBIT, "");
+    glint_passes *passes = find(s, 0, 1);
+    const glint_pass *p = glint_passes_get(passes, 0);
+    bool lit = true, dark = false; /* at noon of the first day */
+    double before_s = 0, lit_s = 0, both_s = 0;
+    int changes = 0;
+    for (size_t k = 0; k <= p->n_events; k++) {
+        const double t_s = k < p->n_events ? p->events[k].t_s : 259200;
+        lit_s += lit ? t_s - before_s : 0;
+        both_s += lit && dark ? t_s - before_s : 0;
+        before_s = t_s;
+        if (k == p->n_events) break;
+        const glint_event_kind kind = p->events[k].kind;
+        const bool was_lit = lit, was_dark = dark;
+        lit = kind == GLINT_UMBRA_END || (lit && kind != GLINT_UMBRA_BEGIN);
+        dark = kind == GLINT_DARKNESS_BEGIN || (dark && kind != GLINT_DARKNESS_END);
+        changes += (lit != was_lit) + (dark != was_dark);
+    }
+    ck_assert_int_eq(changes, 12); /* three nights, three eclipses */
+    assert_near(p->sunlit_s, lit_s, 1e-6);
+    assert_near(p->dark_site_s, both_s, 1e-6);
+    /* an hour of umbra a night at the equinox: 67 min at the most */
+    assert_near(259200 - p->sunlit_s, 3 * 67 * 60, 3 * 3 * 60);
+    glint_passes_free(passes);
+    glint_scenario_free(s);
+}
+END_TEST
+
 /* ------------------------------------------------------------------ brightness */
 
 /* A mirror that is bent by 0.02 deg alone, so that it is none of the flat ones whose flashes are
@@ -849,6 +884,7 @@ int main(void)
     tcase_add_test(tc, test_passes_find_grazing_ones);
     tcase_add_test(tc, test_passes_agree_with_rows);
     tcase_add_test(tc, test_passes_meet_the_shadow_of_the_reference);
+    tcase_add_test(tc, test_passes_seconds_of_light_lie_between_the_events);
     tcase_add_test(tc, test_passes_meet_the_shadow_of_the_moon);
     tcase_add_test(tc, test_passes_leave_out_what_the_moon_does_behind_the_earth);
     tcase_add_test(tc, test_passes_find_a_narrow_peak_of_a_slow_satellite);

@@ -152,6 +152,14 @@ START_TEST(test_shares_that_differ_from_row_to_row_closed_form)
     assert_near(z.share_mean, z_flux / flux, 1e-14);
     assert_near(z.share_peak, 0, 0);
     assert_near(z.dominant_fraction, 0.5, 0);
+    /* the table for people has the same: mean, peak, percent of rows, magnitude, area */
+    const char *path = in_folder("shares.txt");
+    ck_assert_int_eq(glint_shares_write(shares, GLINT_FORMAT_TABLE, path, NULL), GLINT_OK);
+    char *text = read_bytes(path, NULL), line[128];
+    snprintf(line, sizeof line, " %8.4f %8.4f    50.0%% %8.3f %9.4g", z.share_mean, 0.0,
+             z.magnitude_mean, 1.0);
+    ck_assert_msg(strstr(text, line) != NULL, "no '%s' in %s", line, text);
+    free(text);
     ck_assert_int_eq(z.rows, 4);
     glint_shares_free(shares);
 }
