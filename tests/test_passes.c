@@ -434,6 +434,15 @@ START_TEST(test_passes_seconds_of_light_lie_between_the_events)
     ck_assert_int_eq(changes, 12); /* three nights, three eclipses */
     assert_near(p->sunlit_s, lit_s, 1e-6);
     assert_near(p->dark_site_s, both_s, 1e-6);
+    const char *path = in_folder("passes.txt");
+    char line[64];
+    ck_assert_int_eq(
+        glint_passes_write((const glint_passes *const *)&passes, 1, GLINT_FORMAT_TABLE, path, NULL),
+        GLINT_OK);
+    char *text = read_bytes(path, NULL);
+    snprintf(line, sizeof line, "  %7.0f  %7.0f  ", lit_s, both_s);
+    ck_assert_ptr_nonnull(strstr(text, line));
+    free(text);
     /* an hour of umbra a night at the equinox: 67 min at the most */
     assert_near(259200 - p->sunlit_s, 3 * 67 * 60, 3 * 3 * 60);
     glint_passes_free(passes);
