@@ -9,6 +9,7 @@
 
 #include <float.h>
 #include <stdint.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* ---------------------------------------------------------------- errors */
@@ -392,12 +393,45 @@ START_TEST(test_path_beside_joins_folder_and_name)
         {"/b.toml", "c", "/c"},
         {NULL, "c", "c"},
         {"a/b.toml", "", "a/"},
+        {"./b.toml", "sub/../c", "./sub/../c"}, /* there is no folder 'sub' to go through */
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char *joined = path_beside(cases[k].from, cases[k].path);
         ck_assert_str_eq(joined, cases[k].joined);
         free(joined);
     }
+}
+END_TEST
+
+/* A path is shortened where folders show that it may be, and not behind a link. */
+START_TEST(test_path_beside_leaves_out_ways_back)
+{
+    char folder[] = "/tmp/glint-path-XXXXXX", from[64], expected[64];
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    ck_assert_int_eq(chdir(folder), 0);
+    ck_assert_int_eq(mkdir("a", 0700) | mkdir("a/b", 0700) | symlink("a/b", "link"), 0);
+    static const struct {
+        const char *from, *path, *joined;
+    } cases[] = {
+        {"a/m.toml", "../c", "c"},
+        {"a/b/m.toml", "../../c", "c"},
+        {"a/b/m.toml", "../c", "a/c"},
+        {"./a/m.toml", "../c", "./c"},
+        {"link/m.toml", "../c", "link/../c"},
+        {"../a/m.toml", "../c", "../a/../c"},
+        {"a/m.toml", "../a/../c", "c"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char *joined = path_beside(cases[k].from, cases[k].path);
+        ck_assert_str_eq(joined, cases[k].joined);
+        free(joined);
+    }
+    snprintf(from, sizeof from, "%s/a/m.toml", folder);
+    snprintf(expected, sizeof expected, "%s/c", folder);
+    char *joined = path_beside(from, "../c");
+    ck_assert_str_eq(joined, expected);
+    free(joined);
+    ck_assert_int_eq(unlink("link") | rmdir("a/b") | rmdir("a") | chdir("/") | rmdir(folder), 0);
 }
 END_TEST
 
@@ -592,6 +626,7 @@ int main(void)
     tcase_add_test(names, test_nearest_name_finds_slips);
     tcase_add_test(names, test_nearest_name_stands_very_long_names);
     tcase_add_test(names, test_path_beside_joins_folder_and_name);
+    tcase_add_test(names, test_path_beside_leaves_out_ways_back);
     tcase_add_test(names, test_param_accepts_its_range_only);
     tcase_add_test(names, test_param_says_its_range_in_words);
     suite_add_tcase(suite, errors);

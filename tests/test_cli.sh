@@ -393,6 +393,17 @@ empty "$err"
 holds 'nothing that could be shadowed' grep -q '^shadows     none computed; 0 of 1 facets' "$out"
 t 'check of what shadows what' 0 check "$source/scenarios/models/box-wing.toml"
 has "$out" '6 of 10 facets can be shadowed' 'shadow of wing-north' '1 of 6 facets of bus'
+t 'check of an observed track' 0 check "$source/scenarios/compare-vienna.toml"
+has "$out" 'observed    53 observations of' '(csv), magnitudes apparent, band V, by Vienna; a zero point' \
+    'from 2025-07-24T19:10:00Z to 2025-07-24T19:16:19Z'
+holds 'one line for the attitude' [ "$(grep -c '^attitude' "$out")" = 1 ]
+holds 'no blanks at ends of lines' [ "$(grep -c ' $' "$out")" = 0 ]
+holds 'paths without a way back' [ "$(grep -c '/\.\./materials' "$err")" = 0 ]
+t 'check with no TOML in --set' 1 check plate.toml --set materials.white.rho=half
+has "$err" 'syntax error' 'the value must be TOML'
+t 'check with a value that cannot be in --set' 1 check plate.toml --set materials.white.rho=nan
+has "$err" 'expected a finite number'
+lacks "$err" 'must be TOML'
 t 'check goes on after a wrong file' 1 check broken.toml plate.toml absent.toml
 has "$out" plate.toml
 has "$err" broken.toml:1:1: absent.toml
@@ -438,11 +449,14 @@ has "$out" "attitude    table: CSV table 'turn.csv', 2 rows from 0 to 40 s" \
     'by a table of 2 angles over 60 s'
 empty "$err"
 t 'run of motions' 0 run moves.toml
-has "$out" "# - attitude: \"table: CSV table 'turn.csv', 2 rows from 0 to 40 s\"" \
-    '# - attitude: "from 20 s by a slew of 15 s to nadir, geodetic"' '# - attitude_slews:' \
+has "$out" '# - attitude:' "#   - \"table: CSV table 'turn.csv', 2 rows from 0 to 40 s\"" \
+    '#   - "from 20 s by a slew of 15 s to nadir, geodetic"' '# - attitude_slews:' \
     '# - attitude_tables:'
 t 'check of a table that is too short' 0 check moves.toml --set 'attitude.1={from=50,law="nadir"}'
 has "$err" 'the attitude table says nothing at 40 s from the start'
+t 'check of a spin with an offset' 0 check -q "$source/scenarios/flashes-vienna.toml" \
+    --set 'attitude.offset_deg={axis=[1,2,3],angle=-3}'
+has "$out" 'attitude    spin, one turn in 30 s, with an offset of 3 deg'
 t 'run beyond a table' 1 run moves.toml --set 'attitude.1={from=50,law="nadir"}'
 has "$err" 'says nothing at' 'it ends at 40 s'
 t 'verify' 0 verify good.toml
@@ -576,9 +590,20 @@ empty "$err"
 has "$out" 'light in 2 of 3 rows' 'materials ' 'components ' 'surfaces ' '/+z'
 t 'shares as JSON' 0 shares plate.toml --format json
 has "$out" '"shares": [' '"share_mean": 1'
+t 'passes say what run they are of' 0 passes -q "$source/scenarios/iss-vienna.toml" --format csv
+has "$out" '# - scenario_hash: ' '# - orbit: "SGP4' '# - zero_point_V: '
+t 'passes of two scenarios say both' 0 passes -q "$source"/scenarios/{iss-vienna,flashes-vienna}.toml --format json
+has "$out" '"scenario_hash": [' '"A spinning stage flashes over Vienna"' '"time_scale": '
 t 'shares in a file' 0 shares plate.toml --format csv -o shares.csv
 empty "$out"
 has shares.csv '# %ECSV 1.0' 'kind,name,component,material,facing'
+lacks shares.csv '# - set:' '# - swap:'
+t 'shares of a changed satellite' 0 shares plate.toml --format csv --swap white=white --set materials.white.rho=0.2
+has "$out" '# - scenario_hash: ' '# - set:' '#   - "materials.white.rho=0.2"' '# - swap:' '#   - "white=white"'
+t 'shares of a changed satellite as JSON' 0 shares plate.toml --format json --swap white=white
+has "$out" '"scenario_hash": ' '"swap": [' '"white=white"' '"set": []'
+t 'shares of a changed satellite for people' 0 shares plate.toml --swap white=white
+has "$out" 'changed (white=white): light in'
 t 'shares in a folder that is not there' 3 shares plate.toml -o no/such/file.csv
 t 'a swap without a name' 2 shares plate.toml --swap
 t 'a swap that is none' 2 shares plate.toml --swap white
@@ -588,6 +613,8 @@ t 'a swap of a material that is not there' 2 shares plate.toml --swap whit=white
 has "$err" "no material 'whit'; did you mean 'white'?"
 t 'without a component that is not there' 2 shares plate.toml --without plat
 has "$err" "there is no component 'plat'"
+t 'a swap to nothing like what there is' 2 shares plate.toml --swap white=gold
+has "$err" "there is no material 'gold'; there are: white"
 t 'shares of a scenario that is not there' 1 shares nothere.toml
 track=$source/scenarios/compare-vienna.toml
 t 'a track' 0 compare -q "$track"
@@ -595,8 +622,12 @@ empty "$err"
 has "$out" '53 of 53 observations compared' 'zero point of +0.28' 'Pearson R 0.99' 'chi^2 '
 t 'a track as CSV' 0 compare -q "$track" --format csv -o residuals.csv
 has residuals.csv '# %ECSV 1.0' 'line,utc,t_s,observed,sigma,predicted,residual,state'
-t 'a track as JSON' 0 compare -q "$track" --format json
-has "$out" '"observations_compared": [' '"rms_mag": '
+has residuals.csv '# - title: "Box-wing over Vienna' '# - scenario_hash: ' '# - zero_point_V: ' '# - rms_mag: '
+t 'a track as JSON' 0 compare -q "$track" --format json --threads 2 --set observed.fit_zero_point=false
+has "$out" '"scenario_hash": ' '"observed.fit_zero_point=false"' '"observations_compared": [' '"rms_mag": '
+t 'a track of another format' 1 compare -q "$track" --set 'observed.format="mmt"'
+has "$err" 'has 1 word; expected nine or ten' 'more errors are not shown'
+lines "$err" 51
 t 'a scenario without a track' 1 compare "$source/scenarios/iss-vienna.toml" -q
 has "$err" 'no [observed]'
 t 'a track in a folder that is not there' 3 compare -q "$track" -o no/such/file.csv
@@ -611,12 +642,29 @@ t 'shares over the scenario' 3 shares -q plate-copy.toml -o plate-copy.toml
 holds 'the scenario as it was' cmp -s plate.toml plate-copy.toml
 if command -v gnuplot >/dev/null; then
     t 'a picture of shares' 0 shares -q plate.toml --plot shares.svg
-    has shares.svg '<svg' 'surface share'
+    has shares.svg '<svg' 'surfaces'
+    t 'a picture in the place of its table' 2 shares -q plate.toml -o same.svg --plot same.svg
+    has "$err" "both go to 'same.svg'"
+    t 'a picture in the place of residuals' 2 compare -q "$track" -o same.svg --plot same.svg
+    t 'a picture in the place of curves' 2 brdf show -q plate.toml -o same.svg --plot same.svg
+    holds 'none of them written' [ ! -e same.svg ]
+    t 'a picture of shares for two observers' 2 shares -q "$source/scenarios/geo-moon-shadow.toml" --plot two.svg
+    has "$err" 'one observer, and there are 2'
+    holds 'no picture for two' [ ! -e two.svg ]
     t 'a picture of a track' 0 compare -q "$track" --plot track.svg
     has track.svg '<svg' 'observed - predicted'
 else
     skip 'pictures of shares and tracks' 'no gnuplot'
 fi
+
+printf 'theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg\n10,0,20,180\n10,0,30,18' >cut.csv
+t 'values at angles of a file that is cut' 0 brdf show plate.toml --geometry cut.csv
+has "$err" 'cut.csv:3:1: warning: the last row has no line end'
+holds 'the whole row alone' [ "$(grep -vc '^#' "$out")" = 2 ]
+printf 'sun_x,sun_y,sun_z,obs_x,obs_y,obs_z\n0,0,1,0,0,1\n0,0,1,0,0,0.' >cut.csv
+t 'directions of a file that is cut' 0 run plate.toml --set 'geometry={table="cut.csv"}'
+has "$err" 'cut.csv:3:1: warning: the last row has no line end'
+holds 'the whole directions alone' [ "$(grep -vc '^#' "$out")" = 2 ]
 
 # A Lambert surface of reflectance 0.2 and a lobe, at one incidence; the truth is among the models.
 {

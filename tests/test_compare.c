@@ -66,7 +66,7 @@ static compared compare(const char *observed)
 {
     compared out = {.s = read_sound(write_scenario(observed))};
     glint_error error = {0};
-    ck_assert_msg(glint_compare(out.s, &out.c, &error) == GLINT_OK, "%s", error.message);
+    ck_assert_msg(glint_compare(out.s, 1, &out.c, &error) == GLINT_OK, "%s", error.message);
     glint_comparison_total(out.c, &out.total);
     return out;
 }
@@ -299,7 +299,7 @@ START_TEST(test_compare_eclipsed_observations_are_left_out)
         read_sound(write_file("scenario.toml", with_part(all, PART_EXPECT, CSV).text));
     glint_comparison *c;
     glint_comparison_summary total;
-    ck_assert_int_eq(glint_compare(s, &c, NULL), GLINT_OK);
+    ck_assert_int_eq(glint_compare(s, 1, &c, NULL), GLINT_OK);
     glint_comparison_total(c, &total);
     ck_assert_int_eq(total.compared, bright);
     ck_assert_int_eq(total.compared + total.eclipsed + total.dark, (int)r.n);
@@ -349,7 +349,7 @@ START_TEST(test_compare_observations_in_any_order_and_over_days)
     glint_scenario *s =
         read_sound(write_file("scenario.toml", with_part(all, PART_EXPECT, CSV).text));
     glint_comparison *c;
-    ck_assert_int_eq(glint_compare(s, &c, NULL), GLINT_OK);
+    ck_assert_int_eq(glint_compare(s, 1, &c, NULL), GLINT_OK);
     const double want_t_s[4] = {432000, 10, 432000, 0};
     for (size_t k = 0; k < 4; k++) {
         glint_observation o;
@@ -381,7 +381,7 @@ START_TEST(test_compare_track_of_one_of_two_observers)
             read_sound(write_file("scenario.toml", with_part(all, PART_EXPECT, observed).text));
         glint_comparison *c;
         glint_comparison_summary total;
-        ck_assert_int_eq(glint_compare(s, &c, NULL), GLINT_OK);
+        ck_assert_int_eq(glint_compare(s, 1, &c, NULL), GLINT_OK);
         glint_comparison_total(c, &total);
         if (k == 1)
             assert_near(total.mean, 0.4, 1e-12);
@@ -487,6 +487,145 @@ START_TEST(test_compare_score_reports)
 }
 END_TEST
 
+/* What is left of a report by somebody who needs little. */
+START_TEST(test_compare_score_report_with_few_columns)
+{
+    write_file("report.csv", "observation_time_utc,apparent_magnitude\n"
+                             "2025-07-25T20:37:10.000Z,5.5\n");
+    compared c = compare("[observed]\nfile = \"report.csv\"\nformat = \"score\"\n");
+    ck_assert_int_eq(c.total.compared, 1);
+    ck_assert_int_eq(c.total.with_sigma, 0);
+    ck_assert_int_eq(c.total.with_range, 0);
+    end(&c);
+}
+END_TEST
+
+/* A track of which nothing is left says why. */
+START_TEST(test_compare_track_without_a_row_that_counts_is_warned_of)
+{
+    write_file("track.csv", "utc,magnitude,filter\n2025-07-24T20:37:10Z,5.5,V\n"
+                            "2025-07-26T20:37:11.5Z,5.5,V\n2025-07-25T20:37:10Z,5.5,Clear\n"
+                            "2025-07-25T20:37:10Z,,V\n");
+    glint_scenario *s;
+    glint_errors *errors = glint_errors_new();
+    const char *path = write_scenario("[observed]\nfile = \"track.csv\"\nfilter = \"v\"\n");
+    ck_assert_int_eq(glint_scenario_read(path, NULL, 0, &s, errors), GLINT_OK);
+    ck_assert_uint_eq(glint_errors_count(errors), 1);
+    const char *said = glint_errors_get(errors, 0)->message;
+    ck_assert_int_eq(glint_errors_get(errors, 0)->severity, GLINT_WARNING);
+    ck_assert_msg(strstr(said, "2 lie outside of [time], from 2025-07-24T20:37:10.000000Z to "
+                               "2025-07-26T20:37:11.500000Z UTC") &&
+                      strstr(said, "1 have another filter, as 'Clear'") &&
+                      strstr(said, "1 have no magnitude"),
+                  "%s", said);
+    glint_scenario_free(s);
+    glint_errors_free(errors);
+}
+END_TEST
+
+/* ------------------------------------------------------ between observations */
+
+/* Observations every 7 s on three days in turn, more than a thread takes at once: the numbers are
+ * those of one thread. */
+START_TEST(test_compare_any_number_of_threads_gives_the_same_numbers)
+{
+    enum { N = 300 };
+    char *track = malloc(N * 64);
+    int n = sprintf(track, "mjd,magnitude\n");
+    for (int k = 0; k < N; k++)
+        n += sprintf(track + n, "%.8f,%d\n", 60881.8591 + (k % 3) + 7.0 / 86400 * (k / 3),
+                     5 + k % 4);
+    write_file("track.csv", track);
+    free(track);
+    const marked_text m = with_part(SOUND, PART_EXPECT, CSV);
+    const char *const days[] = {"time.duration_s=200000"};
+    glint_scenario *s;
+    ck_assert_int_eq(glint_scenario_read(write_file("days.toml", m.text), days, 1, &s, NULL),
+                     GLINT_OK);
+    glint_comparison *one;
+    ck_assert_int_eq(glint_compare(s, 1, &one, NULL), GLINT_OK);
+    for (int threads = 2; threads <= 7; threads += 5) {
+        glint_comparison *many;
+        glint_observation a, b;
+        size_t k = 0;
+        ck_assert_int_eq(glint_compare(s, threads, &many, NULL), GLINT_OK);
+        for (; glint_comparison_get(one, k, &a) && glint_comparison_get(many, k, &b); k++)
+            ck_assert(a.state == b.state && a.predicted == b.predicted && a.range_m == b.range_m &&
+                      a.phase_rad == b.phase_rad);
+        ck_assert_uint_eq(k, N);
+        glint_comparison_free(many);
+    }
+    glint_comparison *none;
+    ck_assert_int_eq(glint_compare(s, -1, &none, NULL), GLINT_ARGUMENT);
+    glint_comparison_free(one);
+    glint_scenario_free(s);
+}
+END_TEST
+
+/* Predictions at any moment are the rows of the run there. */
+START_TEST(test_compare_predicts_between_observations)
+{
+    const rows r = sound_curve();
+    write_file("track.csv", "utc,magnitude\n2025-07-25T20:37:00Z,5\n2025-07-25T20:38:00Z,5\n");
+    compared c = compare(CSV);
+    double predicted[7], t_s[7];
+    for (int threads = 0; threads < 3; threads++) {
+        ck_assert_int_eq(glint_comparison_predict(c.c, r.t_s, r.n, threads, predicted, NULL),
+                         GLINT_OK);
+        for (size_t k = 0; k < r.n; k++)
+            assert_near(predicted[k], r.magnitude[k], 1e-9); /* light times differ by 1e-12 s */
+    }
+    memcpy(t_s, r.t_s, sizeof t_s);
+    t_s[3] = t_s[2] - 1;
+    ck_assert_int_eq(glint_comparison_predict(c.c, t_s, 7, 1, predicted, NULL), GLINT_ARGUMENT);
+    const double outside[] = {60.1}, before[] = {-0.1};
+    ck_assert_int_eq(glint_comparison_predict(c.c, outside, 1, 1, predicted, NULL), GLINT_ARGUMENT);
+    ck_assert_int_eq(glint_comparison_predict(c.c, before, 1, 1, predicted, NULL), GLINT_ARGUMENT);
+    end(&c);
+    const char *const low[] = {"observer.min_elevation_deg=89"};
+    glint_scenario *s;
+    ck_assert_int_eq(glint_scenario_read(write_scenario(CSV), low, 1, &s, NULL), GLINT_OK);
+    ck_assert_int_eq(glint_compare(s, 1, &c.c, NULL), GLINT_OK);
+    ck_assert_int_eq(glint_comparison_predict(c.c, r.t_s, r.n, 1, predicted, NULL), GLINT_OK);
+    for (size_t k = 0; k < r.n; k++)
+        ck_assert(predicted[k] == HUGE_VAL);
+    glint_comparison_free(c.c);
+    glint_scenario_free(s);
+}
+END_TEST
+
+/* Exposures are predicted as exposures: a mirror-like box that spins flashes within them. */
+START_TEST(test_compare_exposures_are_those_of_the_run)
+{
+    static const char *const set[] = {
+        "time.exposure_s=4",
+        "attitude={law=\"spin\", body_axis=[1,0,0], pole=\"sun\", period_s=3, "
+        "phase_deg=0}",
+        "materials.white={brdf=\"ward-gmd\", rho_d=0.1, rho_s=0.5, alpha_x=0.05, alpha_y=0.05}"};
+    write_file("track.csv", "utc,magnitude\n2025-07-25T20:37:00Z,5\n2025-07-25T20:37:30Z,5\n"
+                            "2025-07-25T20:38:00Z,5\n");
+    glint_scenario *s;
+    ck_assert_int_eq(glint_scenario_read(write_scenario(CSV), set, COUNT_OF(set), &s, NULL),
+                     GLINT_OK);
+    glint_curve *curve;
+    glint_comparison *c;
+    const glint_row *run;
+    glint_observation o;
+    size_t n;
+    ck_assert_int_eq(glint_curve_open(s, 1, &curve, NULL), GLINT_OK);
+    ck_assert_int_eq(glint_curve_next(curve, &run, &n, NULL), GLINT_OK);
+    ck_assert_uint_eq(n, 7);
+    ck_assert_int_eq(glint_compare(s, 1, &c, NULL), GLINT_OK);
+    for (size_t k = 0; k < 3; k++) {
+        ck_assert(glint_comparison_get(c, k, &o));
+        assert_near(o.predicted, run[3 * k].magnitude[0], 1e-7); /* EXPOSURE_TOLERANCE: 1e-8 */
+    }
+    glint_comparison_free(c);
+    glint_curve_close(curve);
+    glint_scenario_free(s);
+}
+END_TEST
+
 /* ------------------------------------------------------------------- errors */
 
 /* Reads a scenario that must be refused for its track, at that place of the file. */
@@ -531,6 +670,9 @@ START_TEST(test_compare_wrong_tracks_are_refused_at_their_place)
     for (size_t k = 0; k < COUNT_OF(csv); k++)
         assert_track_refused(CSV, csv[k].track, csv[k].line, csv[k].column, csv[k].said);
     static const char MMT[] = "[observed]\nfile = \"track.csv\"\nformat = \"mmt\"\n";
+    static const char SCORE[] = "[observed]\nfile = \"track.csv\"\nformat = \"score\"\n";
+    assert_track_refused(SCORE, "utc,apparent_magnitude\n2025-07-25T20:37:00Z,9\n", 1, 1,
+                         "no column 'observation_time_utc'; expected the columns of SCORE");
     static const char row[] = "2025-07-25 20:37:00 5 6 Clear 0 900 80 3\n";
     char track[512];
     snprintf(track, sizeof track, "%s2025-07-25 20:37:00 5 6 Clear 0 900 80\n", row);
@@ -572,7 +714,7 @@ START_TEST(test_compare_wrong_keys_are_refused)
     glint_scenario *s = read_sound(write_scenario(""));
     glint_comparison *c;
     glint_error error;
-    ck_assert_int_eq(glint_compare(s, &c, &error), GLINT_INPUT);
+    ck_assert_int_eq(glint_compare(s, 1, &c, &error), GLINT_INPUT);
     ck_assert_ptr_nonnull(strstr(error.message, "no [observed]"));
     glint_scenario_free(s);
 }
@@ -587,7 +729,7 @@ static void assert_cuts(const char *observed, const char *track, const char *con
         glint_scenario *s;
         glint_comparison *c;
         if (glint_scenario_read(path, NULL, 0, &s, NULL)) continue;
-        ck_assert_int_eq(glint_compare(s, &c, NULL), GLINT_OK);
+        ck_assert_int_eq(glint_compare(s, 1, &c, NULL), GLINT_OK);
         glint_observation o;
         for (size_t k = 0; glint_comparison_get(c, k, &o); k++)
             assert_near(o.observed, strtod(magnitudes[k], NULL), 0);
@@ -628,8 +770,13 @@ int main(void)
     tcase_add_test(numbers, test_compare_track_of_one_of_two_observers);
     tcase_add_test(numbers, test_compare_degenerate_tracks_have_no_correlation);
     tcase_add_checked_fixture(files, folder_make, folder_remove);
+    tcase_add_test(files, test_compare_any_number_of_threads_gives_the_same_numbers);
+    tcase_add_test(files, test_compare_predicts_between_observations);
+    tcase_add_test(files, test_compare_exposures_are_those_of_the_run);
     tcase_add_test(files, test_compare_mmt_tracks);
     tcase_add_test(files, test_compare_score_reports);
+    tcase_add_test(files, test_compare_score_report_with_few_columns);
+    tcase_add_test(files, test_compare_track_without_a_row_that_counts_is_warned_of);
     tcase_add_test(files, test_compare_wrong_tracks_are_refused_at_their_place);
     tcase_add_test(files, test_compare_wrong_keys_are_refused);
     tcase_add_test(files, test_compare_cut_tracks_give_whole_rows_only);

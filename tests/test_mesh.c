@@ -603,7 +603,8 @@ START_TEST(test_mesh_materials_refuse_faces_without_one_and_names_without_faces)
     spec = mesh_shape("named.obj");
     spec.material[primitive_key_index(spec.kind, "material")] = PRIMITIVE_NO_MATERIAL;
     spec.given[primitive_key_index(spec.kind, "material")] = false;
-    assert_mesh_refused(&spec, "shape.toml", TABLE_LINE, 1, "the mesh has no material");
+    assert_mesh_refused(&spec, "shape.toml", TABLE_LINE, 1,
+                        "the faces of the mesh have no material: ");
     spec = mesh_shape("named.obj");
     SET(&spec, "unit", 0);
     SET(&spec, "scale", 1);
@@ -1093,7 +1094,7 @@ START_TEST(test_scenario_mesh_wrong_is_refused)
          "'skin' in materials is a whole number", "the name of a material", 0},
         {PART_PRIMITIVE, MESH "material = \"white\"\nmaterials = { skni = @\"white\" }\n",
          "no faces of 'skni'", "it has: skin", 0},
-        {PART_PRIMITIVE, "@" MESH, "the mesh has no material", "the key material", 0},
+        {PART_PRIMITIVE, "@" MESH, "the faces of the mesh have no material", "the key material", 0},
     };
     ASSERT_ALL_WRONG(SOUND, all);
 }

@@ -18,12 +18,6 @@ static void keep_path(void)
     folder_make();
 }
 
-static void restore_path(void)
-{
-    setenv("PATH", old_path, 1);
-    folder_remove();
-}
-
 /* Puts a program `gnuplot` with this text into the folder, which becomes the whole of PATH but for
  * where the tools lie that it needs. */
 static void fake_gnuplot(const char *commands)
@@ -33,6 +27,18 @@ static void fake_gnuplot(const char *commands)
     ck_assert_int_eq(chmod(write_file("gnuplot", program), 0755), 0);
     snprintf(path, sizeof path, "%s:/usr/bin:/bin", folder);
     ck_assert_int_eq(setenv("PATH", path, 1), 0);
+}
+
+static void restore_gnuplot(void)
+{
+    remove(in_folder("gnuplot"));
+    setenv("PATH", old_path, 1);
+}
+
+static void restore_path(void)
+{
+    restore_gnuplot();
+    folder_remove();
 }
 
 /* Draws a script into a file of the folder. */
@@ -476,6 +482,141 @@ START_TEST(test_curve_plot_that_cannot_be_drawn_stops_the_run_at_once)
 }
 END_TEST
 
+/* ----------------------------------------------------- tracks and predictions */
+
+/* The script for the picture of a track of two days of the sound scenario, from a gnuplot that
+ * gives it back; from malloc. */
+static char *track_script(const char *track)
+{
+    const marked_text m = with_part(SOUND, PART_EXPECT, "[observed]\nfile = \"track.csv\"\n");
+    const char *const days[] = {"time.duration_s=180000"};
+    write_file("track.csv", track);
+    glint_scenario *s;
+    glint_comparison *c;
+    glint_error error = {0};
+    ck_assert_int_eq(glint_scenario_read(write_file("s.toml", m.text), days, 1, &s, NULL),
+                     GLINT_OK);
+    ck_assert_int_eq(glint_compare(s, 1, &c, NULL), GLINT_OK);
+    fake_gnuplot("exec cat");
+    ck_assert_msg(glint_comparison_plot(c, 1, in_folder("a.svg"), &error) == GLINT_OK, "%s",
+                  error.message);
+    char *script = read_bytes(in_folder("a.svg"), NULL);
+    restore_gnuplot();
+    if (has_gnuplot("pictures of tracks"))
+        ck_assert_msg(glint_comparison_plot(c, 1, in_folder("b.svg"), &error) == GLINT_OK, "%s",
+                      error.message);
+    glint_comparison_free(c);
+    glint_scenario_free(s);
+    return script;
+}
+
+/* How often a text has another one in it. */
+static int count_of(const char *in, const char *what)
+{
+    int n = 0;
+    for (const char *at = in; (at = strstr(at, what)); at += strlen(what))
+        n++;
+    return n;
+}
+
+START_TEST(test_comparison_plot_of_one_pass_has_an_axis_of_utc_and_a_curve)
+{
+    char *script = track_script("utc,magnitude\n2025-07-25T20:37:10Z,9\n2025-07-25T20:38:00Z,9\n");
+    ck_assert_ptr_nonnull(strstr(script, "set xdata time"));
+    ck_assert_ptr_nonnull(strstr(script, "a white box"));
+    const char *curve = strstr(script, "$predicted << end\n"), *end = strstr(curve, "\nend\n");
+    int points = 0;
+    for (const char *line = curve; line < end; line = strchr(line, '\n') + 1)
+        points += line[0] >= '0' && line[0] <= '9';
+    ck_assert_int_ge(points, 100); /* 50 s */
+    /* 20:37:10 of 25 July 2025, 20294 days after 1 January 1970 */
+    ck_assert_ptr_nonnull(strstr(curve, "\n1753475830.000000 "));
+    free(script);
+}
+END_TEST
+
+/* The box is up again 98 minutes after; a pass may have a single row. */
+START_TEST(test_comparison_plot_sets_passes_side_by_side)
+{
+    char *script = track_script("utc,magnitude\n2025-07-25T20:37:10Z,9\n2025-07-25T20:38:00Z,9\n"
+                                "2025-07-25T22:15:10Z,9\n");
+    ck_assert_ptr_null(strstr(script, "set xdata time"));
+    ck_assert_int_eq(count_of(script, "set arrow from"), 1);
+    ck_assert_ptr_nonnull(strstr(script, "\"20:37\\n25 Jul 2025\" 0.000000"));
+    /* 50 s, and half of the mean of 50 and 0 s */
+    ck_assert_ptr_nonnull(strstr(script, "\"22:15\\n25 Jul 2025\" 62.500000"));
+    free(script);
+}
+END_TEST
+
+/* ------------------------------------------------------------- shares and changes */
+
+/* Twelve plates that look the same way, the k-th of k + 1 m^2, as a component each. */
+static const char *write_plates(void)
+{
+    text t = {0};
+    for (int part = 0; part < PART_COMPONENT; part++)
+        text_add(&t, TURNING[part] ? TURNING[part] : "");
+    text_add(&t, "[materials.grey]\nbrdf = \"lambert\"\nrho = 0.25\n");
+    for (int k = 0; k < 12; k++)
+        text_printf(&t,
+                    "[[component]]\nname = \"part-%d\"\n[[component.plate]]\nsize_m = [1, %d]\n"
+                    "centre_m = [0, 0, %d]\nnormal = [0, 1, 0]\ntangent = [1, 0, 0]\n"
+                    "material = \"foil\"\n",
+                    k, k + 1, 20 * k);
+    const char *path = write_file("plates.toml", t.data);
+    text_free(&t);
+    return path;
+}
+
+/* No name is lost: what a legend has no room for is named together, and all adds up to 1. */
+START_TEST(test_shares_plot_names_the_largest_and_sums_up_the_others)
+{
+    const char *const swap[] = {"foil=grey"};
+    const glint_changes changes = {swap, 1, NULL, 0};
+    glint_shares *shares;
+    glint_error error = {0};
+    const char *const set[] = {"geometry.rotate.step_deg=30"};
+    ck_assert_int_eq(
+        glint_shares_find(write_plates(), set, 1, &changes, 1, NULL, NULL, &shares, NULL),
+        GLINT_OK);
+    fake_gnuplot("exec cat");
+    ck_assert_msg(glint_shares_plot(shares, 1, in_folder("a.svg"), &error) == GLINT_OK, "%s",
+                  error.message);
+    char *script = read_bytes(in_folder("a.svg"), NULL);
+    restore_gnuplot();
+    if (has_gnuplot("pictures of shares"))
+        ck_assert_msg(glint_shares_plot(shares, 1, in_folder("b.svg"), &error) == GLINT_OK, "%s",
+                      error.message);
+    ck_assert_ptr_nonnull(strstr(script, "'foil=grey'"));
+    ck_assert_ptr_nonnull(strstr(script, "$given0 << end"));
+    ck_assert_ptr_nonnull(strstr(script, "title 'as given'"));
+    const char *legend = strstr(script, "set ylabel 'components in V'");
+    ck_assert_ptr_nonnull(legend);
+    ck_assert_ptr_nonnull(strstr(legend, "title 'part-11'"));
+    const char *others = strstr(legend, " others'");
+    ck_assert_ptr_nonnull(others);
+    const char *number = others;
+    while (number[-1] != '\'')
+        number--;
+    const long n_others = strtol(number, NULL, 10);
+    ck_assert_int_gt(n_others, 0);
+    int names = 0;
+    for (int k = 0; k < 12; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "title 'part-%d'", k);
+        names += strstr(legend, name) != NULL;
+    }
+    ck_assert_int_eq(names + n_others, 12);
+    const char *row = strchr(strstr(script, "$shares1 << end"), '\n') + 1;
+    char line[256];
+    snprintf(line, sizeof line, "%.*s", (int)strcspn(row, "\n"), row);
+    assert_near(strtod(strrchr(line, ' '), NULL), 1, 1e-5);
+    free(script);
+    glint_shares_free(shares);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("plot");
@@ -498,6 +639,9 @@ int main(void)
     tcase_add_test(all, test_curve_plot_marks_rows_that_stand_alone);
     tcase_add_test(all, test_curve_plot_is_drawn_whatever_the_rows_are);
     tcase_add_test(all, test_curve_plot_that_cannot_be_drawn_stops_the_run_at_once);
+    tcase_add_test(all, test_comparison_plot_of_one_pass_has_an_axis_of_utc_and_a_curve);
+    tcase_add_test(all, test_comparison_plot_sets_passes_side_by_side);
+    tcase_add_test(all, test_shares_plot_names_the_largest_and_sums_up_the_others);
     suite_add_tcase(suite, all);
     return run_suite(suite);
 }

@@ -30,7 +30,7 @@ static void assert_outcome(const char *const parts[N_PARTS], const outcome *o)
     const marked_text m = with_part(parts, PART_EXPECT, o->text);
     const char *path = write_file("scenario.toml", m.text);
     glint_errors *errors = glint_errors_new();
-    glint_verdict verdict = {-1, -1};
+    glint_verdict verdict = {-1, -1, NULL};
     const glint_status status = glint_verify(path, NULL, 0, 1, &verdict, errors);
     ck_assert_msg(status == (o->said[0] ? GLINT_INPUT : GLINT_OK), "status %d of:\n%s%s", status,
                   o->text, list_errors(errors));
@@ -45,6 +45,7 @@ static void assert_outcome(const char *const parts[N_PARTS], const outcome *o)
     ck_assert_msg(glint_errors_error_count(errors) == n, "%zu errors wanted:%s", n,
                   list_errors(errors));
     glint_errors_free(errors);
+    glint_free(verdict.requirements);
     ck_assert_int_eq(glint_verify(path, NULL, 0, 1, NULL, NULL), status);
 }
 
@@ -128,7 +129,7 @@ START_TEST(test_verify_scenario_that_expects_nothing_is_an_error)
     const marked_text m = with_part(PLATES, PART_EXPECT, "");
     const char *path = write_file("scenario.toml", m.text);
     glint_errors *errors = glint_errors_new();
-    glint_verdict verdict = {-1, -1};
+    glint_verdict verdict = {-1, -1, NULL};
     ck_assert_int_eq(glint_verify(path, NULL, 0, 1, &verdict, errors), GLINT_INPUT);
     ck_assert(has_error(errors, path, 0, 0, "nothing to verify", "[[expect]]"));
     ck_assert_int_eq(verdict.expectations, 0);
@@ -320,6 +321,48 @@ START_TEST(test_verify_requirement_at_a_reference_height)
 }
 END_TEST
 
+START_TEST(test_verify_requirement_says_its_margin)
+{
+    /* Magnitudes 3.24, 3.39617342, 3.99257499, and two rows that are dark. */
+    static const struct {
+        const char *limit;
+        glint_status status;
+        const char *said;
+    } cases[] = {
+        {"fainter_than = 3\n", GLINT_OK,
+         "mag_V fainter than 3 in 100 % of 5 rows, required 100 %; margin +0.240 mag\n"},
+        {"fainter_than = 3.3\nfor_fraction = 0.8\n", GLINT_OK,
+         "mag_V fainter than 3.3 in 80 % of 5 rows, required 80 %; margin +0.096 mag\n"},
+        {"fainter_than = 4\nfor_fraction = 0.5\n", GLINT_INPUT,
+         "mag_V fainter than 4 in 40 % of 5 rows, required 50 %; margin -0.007 mag\n"},
+        {"fainter_than = 4\nfor_fraction = 0.4\n", GLINT_OK,
+         "mag_V fainter than 4 in 40 % of 5 rows, required 40 %; any brightness would do\n"},
+        {"fainter_than = 4\nwhen = { mag_V = [3.9, 4] }\nfor_fraction = 0\n", GLINT_OK,
+         "mag_V fainter than 4 in 0 % of 1 rows, required 0 %; any brightness would do\n"},
+        {"fainter_than = 4\nwhen = { mag_V = [8, 9] }\n", GLINT_INPUT, NULL},
+    };
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        char content[256];
+        snprintf(content, sizeof content, "[[require]]\ncolumn = \"mag_V\"\n%s", cases[k].limit);
+        const marked_text m = with_part(PLATES, PART_EXPECT, content);
+        glint_verdict verdict;
+        ck_assert_int_eq(
+            glint_verify(write_file("scenario.toml", m.text), NULL, 0, 1, &verdict, NULL),
+            cases[k].status);
+        ck_assert_pstr_eq(verdict.requirements, cases[k].said);
+        glint_free(verdict.requirements);
+    }
+}
+END_TEST
+
+START_TEST(test_verify_expected_table_without_its_last_line_end_lacks_that_row)
+{
+    /* cut within the last number, "0.5" of "0.5e-12" would pass as another value */
+    assert_table("tolerance = { flux_ratio_V = 1 }\n", "flux_ratio_V\n1e-12\n9e-13\n5e-13\n0\n0", 5,
+                 1, 0, 0, "the expected table has 4");
+}
+END_TEST
+
 static Suite *verify_suite(void)
 {
     Suite *suite = suite_create("verify");
@@ -335,6 +378,8 @@ static Suite *verify_suite(void)
     tcase_add_test(all, test_verify_requirements);
     tcase_add_test(all, test_verify_broken_requirement_names_the_surface_and_the_date);
     tcase_add_test(all, test_verify_requirement_at_a_reference_height);
+    tcase_add_test(all, test_verify_requirement_says_its_margin);
+    tcase_add_test(all, test_verify_expected_table_without_its_last_line_end_lacks_that_row);
     suite_add_tcase(suite, all);
     return suite;
 }

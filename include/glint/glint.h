@@ -307,6 +307,8 @@ const glint_pass *glint_passes_get(const glint_passes *passes, size_t k);
 /* Name of the band of the magnitudes, and of the satellite; "" where not said. Borrowed. */
 const char *glint_passes_band(const glint_passes *passes);
 const char *glint_passes_satellite(const glint_passes *passes);
+/* Fact k from 0 of the run, or of the orbit where there is no satellite: as of glint_curve_fact. */
+bool glint_passes_fact(const glint_passes *passes, size_t k, const char **key, const char **value);
 /* True when a path names a file that the scenario was read from: nothing should be written there.
  */
 bool glint_passes_reads(const glint_passes *passes, const char *path);
@@ -534,6 +536,8 @@ glint_status glint_check(const char *path, const char *const *overrides, size_t 
 typedef struct glint_verdict {
     int64_t expectations; /* values and requirements compared */
     int64_t deviations;   /* of these, not met */
+    char *requirements;   /* for each [[require]] that selects rows a line that says how it fares and
+                             with what margin; NULL without; free it with glint_free */
 } glint_verdict;
 
 /* Runs a scenario and holds it against its [[expect]], [expect_table] and [[require]]. Every
@@ -617,8 +621,10 @@ bool glint_shares_get(const glint_shares *shares, bool changed, glint_share_kind
 bool glint_shares_whole(const glint_shares *shares, bool changed, glint_shares_total *out);
 /* What the changes did; false without changes. */
 bool glint_shares_difference(const glint_shares *shares, glint_shares_change *out);
-/* The scenario that was run, the changed one where there are changes. Borrowed. */
-const glint_scenario *glint_shares_scenario(const glint_shares *shares);
+/* Fact k from 0 of the run, and each change under "swap" or "without": as of glint_curve_fact. */
+bool glint_shares_fact(const glint_shares *shares, size_t k, const char **key, const char **value);
+/* The scenario that was run, or that with the changes: NULL without changes. Borrowed. */
+const glint_scenario *glint_shares_scenario(const glint_shares *shares, bool changed);
 /* Writes them as a table. path: as of glint_table_write. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
 glint_status glint_shares_write(const glint_shares *shares, glint_format format, const char *path,
                                 glint_error *error);
@@ -677,25 +683,34 @@ typedef struct glint_comparison_summary {
     int64_t with_range, with_phase; /* observations that say so */
     double range_mean_m, range_most_m;     /* observed - predicted, of those; largest size */
     double phase_mean_rad, phase_most_rad; /* the same */
-    const char *band, *kind, *format, *file; /* borrowed from the scenario */
+    const char *title, *band, *kind, *format, *file; /* borrowed from the scenario */
 } glint_comparison_summary;
 
-/* Compares. scenario: with [observed]; must outlive *out. Errors: GLINT_INPUT (no [observed];
- * directions are given; the orbit fails at some time), GLINT_INTERNAL. */
-glint_status glint_compare(const glint_scenario *scenario, glint_comparison **out,
+/* Compares. scenario: with [observed]; must outlive *out. threads: 0 for all processors; numbers are
+ * the same on any number. Errors: GLINT_INPUT (no [observed]; directions are given; the orbit fails
+ * at some time), GLINT_ARGUMENT (threads), GLINT_INTERNAL. */
+glint_status glint_compare(const glint_scenario *scenario, int threads, glint_comparison **out,
                            glint_error *error);
 void glint_comparison_free(glint_comparison *comparison);
 /* Observation k from 0, of those within [time] and with a magnitude, in the order of the file;
  * false past the end. */
 bool glint_comparison_get(const glint_comparison *comparison, size_t k, glint_observation *out);
 void glint_comparison_total(const glint_comparison *comparison, glint_comparison_summary *out);
+/* Fact k from 0 of the run, as of glint_curve_fact. */
+bool glint_comparison_fact(const glint_comparison *comparison, size_t k, const char **key,
+                           const char **value);
+/* Predicts between the observations. t_s: n moments, TT s from the start, each not before the last,
+ * within the scenario's time. predicted: n; magnitudes as glint_observation has them, HUGE_VAL where
+ * nothing is seen. Errors: those of glint_compare; GLINT_ARGUMENT for other moments. */
+glint_status glint_comparison_predict(const glint_comparison *comparison, const double *t_s,
+                                      size_t n, int threads, double *predicted, glint_error *error);
 /* Writes it as a table; path: as of glint_table_write. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
 glint_status glint_comparison_write(const glint_comparison *comparison, glint_format format,
                                     const char *path, glint_error *error);
-/* Draws it. path: as glint_plot_check takes it. Errors: the same; GLINT_INPUT where there is
- * nothing to draw. */
-glint_status glint_comparison_plot(const glint_comparison *comparison, const char *path,
-                                   glint_error *error);
+/* Draws it, with the curve predicted between observations. path: as glint_plot_check takes it.
+ * Errors: the same; those of glint_comparison_predict; GLINT_INPUT where there is nothing to draw. */
+glint_status glint_comparison_plot(const glint_comparison *comparison, int threads,
+                                   const char *path, glint_error *error);
 /* "compared", "eclipsed", "not-seen", "dark". */
 const char *glint_observation_state_name(glint_observation_state state);
 

@@ -79,6 +79,12 @@ glint_status errors_add(glint_errors *errors, glint_status status, place where, 
     return status;
 }
 
+static bool is_same(const glint_error *a, const glint_error *b)
+{
+    return a->severity == b->severity && a->line == b->line && a->column == b->column &&
+           strcmp(a->file, b->file) == 0 && strcmp(a->message, b->message) == 0;
+}
+
 void errors_warn(glint_errors *errors, place where, const char *format, ...)
 {
     if (!errors) return;
@@ -87,6 +93,8 @@ void errors_warn(glint_errors *errors, place where, const char *format, ...)
     va_start(args, format);
     fill(&error, GLINT_OK, GLINT_WARNING, where, format, args);
     va_end(args);
+    for (size_t k = 0; k < errors->count; k++)
+        if (is_same(&errors->items[k], &error)) return;
     append(errors, &error);
 }
 

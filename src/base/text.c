@@ -96,6 +96,37 @@ bool string_equal(const char *a, const char *b)
     return strcmp(a, b) == 0;
 }
 
+/* Whether the n1 and the n2 bytes at `path` ("" is the working folder) name the same folder. */
+static bool same_folder(const char *path, size_t n1, size_t n2)
+{
+    struct stat found[2];
+    const size_t lengths[2] = {n1, n2};
+    for (int k = 0; k < 2; k++) {
+        char *folder = n1 || k ? string_copy(path, lengths[k]) : string_copy(".", 1);
+        const bool good = folder && stat(folder, &found[k]) == 0;
+        free(folder);
+        if (!good) return false;
+    }
+    return found[0].st_dev == found[1].st_dev && found[0].st_ino == found[1].st_ino;
+}
+
+/* Takes "name/../" out of a path where it leads back to where it began, which it does not behind a
+ * symbolic link: messages name files as a user would. */
+static void shorten_path(char *path)
+{
+    size_t at = 0; /* where a part of the path begins */
+    while (path[at]) {
+        const size_t name = strcspn(path + at, "/"), up = at + name;
+        const bool is_name = name > 0 && strncmp(path + at, "..", name) != 0; /* nor "." */
+        if (is_name && strncmp(path + up, "/../", 4) == 0 && same_folder(path, at, up + 3)) {
+            memmove(path + at, path + up + 4, strlen(path + up + 4) + 1);
+            at = 0; /* what stands before may meet a ".." now */
+        } else {
+            at = up + (path[up] == '/');
+        }
+    }
+}
+
 char *path_beside(const char *from, const char *path)
 {
     const char *slash = from && path[0] != '/' ? strrchr(from, '/') : NULL;
@@ -105,6 +136,7 @@ char *path_beside(const char *from, const char *path)
     if (!joined) return NULL;
     memcpy(joined, from, folder);
     memcpy(joined + folder, path, rest + 1);
+    shorten_path(joined);
     return joined;
 }
 

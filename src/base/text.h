@@ -41,7 +41,8 @@ bool number_read(const char *s, size_t n, double *value);
 char *string_copy(const char *s, size_t n);
 bool string_equal(const char *a, const char *b);
 
-/* `path` as seen from the folder of the file `from`: unchanged when absolute. From malloc. */
+/* `path` as seen from the folder of the file `from`: unchanged when absolute. "name/../" is left
+ * out where both ways lead to the same folder. From malloc. */
 char *path_beside(const char *from, const char *path);
 
 /* The name among n that is nearest to `wanted` by edit distance (swaps of neighbours count as one,

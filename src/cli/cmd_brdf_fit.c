@@ -121,7 +121,7 @@ static glint_status read_options(const options *o, glint_brdf_layout *layout,
     if (!status) status = options_number(o, OPTION_FLOOR, 0.0, 1e300, &layout->floor, error);
     if (!status) status = options_number(o, OPTION_MAX_ZENITH, 1.0, 90.0, &max_zenith_deg, error);
     fit->max_zenith_rad = max_zenith_deg * RAD_PER_DEG;
-    if (!status && o->plot) status = glint_plot_check(o->plot, error);
+    if (!status) status = output_check_plot(o->output, o->plot, error);
     return status;
 }
 

@@ -252,7 +252,7 @@ glint_status cmd_brdf_show(const options *o)
     show s = {0};
     glint_error error;
     glint_status status = read_view(&s, o, &error);
-    if (!status && o->plot) status = glint_plot_check(o->plot, &error);
+    if (!status) status = output_check_plot(o->output, o->plot, &error);
     if (status) {
         report_error(&error);
         return status;

@@ -7,11 +7,12 @@ static glint_status compare(const glint_scenario *scenario, const options *o)
     glint_error error = {0};
     glint_comparison *comparison = NULL;
     glint_status status = output_check(scenario, o->output, &error);
-    if (!status) status = glint_compare(scenario, &comparison, &error);
+    if (!status) status = output_check(scenario, o->plot, &error);
+    if (!status) status = glint_compare(scenario, o->threads, &comparison, &error);
     if (!status)
         status = glint_comparison_write(comparison, options_format(o, GLINT_FORMAT_TABLE),
                                         o->output, &error);
-    if (!status && o->plot) status = glint_comparison_plot(comparison, o->plot, &error);
+    if (!status && o->plot) status = glint_comparison_plot(comparison, o->threads, o->plot, &error);
     glint_comparison_free(comparison);
     return status ? output_fail(o->output, &error) : GLINT_OK;
 }
@@ -19,7 +20,7 @@ static glint_status compare(const glint_scenario *scenario, const options *o)
 glint_status cmd_compare(const options *o)
 {
     glint_error error;
-    if (o->plot && glint_plot_check(o->plot, &error)) {
+    if (output_check_plot(o->output, o->plot, &error)) {
         report_error(&error);
         return error.status;
     }

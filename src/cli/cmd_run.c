@@ -35,7 +35,7 @@ static glint_status write_table(glint_curve *curve, const options *o)
 glint_status cmd_run(const options *o)
 {
     glint_error error;
-    if (o->plot && glint_plot_check(o->plot, &error)) {
+    if (output_check_plot(o->output, o->plot, &error)) {
         report_error(&error);
         return error.status;
     }

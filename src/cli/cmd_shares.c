@@ -20,14 +20,15 @@ static glint_status find(const options *o, glint_shares **out)
 glint_status cmd_shares(const options *o)
 {
     glint_error error = {0};
-    if (o->plot && glint_plot_check(o->plot, &error)) {
+    if (output_check_plot(o->output, o->plot, &error)) {
         report_error(&error);
         return error.status;
     }
     glint_shares *shares = NULL;
     glint_status status = find(o, &shares);
     if (status) return status;
-    status = output_check(glint_shares_scenario(shares), o->output, &error);
+    status = output_check(glint_shares_scenario(shares, false), o->output, &error);
+    if (!status) status = output_check(glint_shares_scenario(shares, false), o->plot, &error);
     if (!status)
         status =
             glint_shares_write(shares, options_format(o, GLINT_FORMAT_TABLE), o->output, &error);

@@ -2,6 +2,8 @@
 #include "cli/output.h"
 #include "cli/report.h"
 
+#include <string.h>
+
 /* What has been verified so far. */
 typedef struct tally {
     long long files, good_files, expectations;
@@ -21,6 +23,12 @@ static glint_status verify_file(const char *path, const options *o, FILE *out, t
                 (long long)verdict.deviations, (long long)verdict.expectations);
     else
         fprintf(out, "FAIL  %s: could not be verified\n", path);
+    for (const char *line = verdict.requirements; line && *line;) {
+        const int n = (int)strcspn(line, "\n");
+        fprintf(out, "      %.*s\n", n, line);
+        line += n + (line[n] == '\n');
+    }
+    glint_free(verdict.requirements);
     fflush(stdout); /* keeps the order where both streams go to one place */
     report_errors(errors, status, o->quiet);
     glint_errors_free(errors);

@@ -58,8 +58,9 @@ static const command commands[] = {
      .summary = "run scenarios and hold them against what they expect",
      .details =
          "Runs scenarios that carry expected values ([[expect]], [expect_table]) or requirements\n"
-         "([[require]]). Prints a line for each file, and on standard error every deviation with\n"
-         "its place in the file. A scenario that expects nothing fails.",
+         "([[require]]). Prints a line for each file and for each requirement, with its margin in\n"
+         "magnitudes, and on standard error every deviation with its place in the file. A\n"
+         "scenario that expects nothing fails.",
      .example = "glint verify scenarios/known/*.toml",
      .example_doc = "do all known geometries come out as they should?",
      .formats = text_only,
@@ -80,7 +81,7 @@ static const command commands[] = {
          "differences are shown. What hangs on a component that is taken away stays.\n"
          "\n"
          "With --plot magnitudes and shares over time are drawn, of the changed satellite where\n"
-         "there are changes.",
+         "there are changes, with the magnitudes of the given one behind.",
      .example = "glint shares scenarios/iss-vienna.toml --swap bus/mli=white-paint",
      .example_doc = "what makes it bright, and what if the bus were painted white?",
      .formats = table_first,
@@ -98,7 +99,8 @@ static const command commands[] = {
          "below the horizon, dark) are told of and left out of the numbers: rms, mean, scatter,\n"
          "Pearson's R, chi^2. Only rows within [time] count.\n"
          "\n"
-         "With --plot observed points, the prediction and the differences are drawn.",
+         "With --plot observed points, the predicted curve and the differences are drawn, passes\n"
+         "side by side.",
      .example = "glint compare scenarios/compare-vienna.toml --format csv -o residuals.csv",
      .example_doc = "how far off is the prediction of a track?",
      .formats = table_first,

@@ -44,6 +44,15 @@ glint_status output_check(const glint_scenario *scenario, const char *path, glin
                      "the scenario is read from %s; expected another file to write to", path);
 }
 
+glint_status output_check_plot(const char *table, const char *plot, glint_error *error)
+{
+    if (!plot) return GLINT_OK;
+    if (table && strcmp(table, plot) == 0)
+        return error_say(error, GLINT_ARGUMENT,
+                         "table and picture both go to '%s'; expected two files", plot);
+    return glint_plot_check(plot, error);
+}
+
 glint_status output_close_stdout(bool *reader_left, glint_error *error)
 {
     bool good = !ferror(stdout);

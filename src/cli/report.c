@@ -52,11 +52,16 @@ void report_error(const glint_error *error)
 
 void report_errors(const glint_errors *errors, glint_status status, bool quiet)
 {
-    const size_t n = glint_errors_count(errors);
+    enum { MOST_SHOWN = 50 }; /* a file of another kind has an error on each line */
+    const size_t n = glint_errors_count(errors), n_errors = glint_errors_error_count(errors);
+    size_t shown = 0;
     for (size_t k = 0; k < n; k++) {
         const glint_error *error = glint_errors_get(errors, k);
+        if (error->severity == GLINT_ERROR && shown++ >= MOST_SHOWN) continue;
         if (error->severity == GLINT_ERROR || !quiet) report_error(error);
     }
+    if (n_errors > MOST_SHOWN)
+        fprintf(stderr, "glint: %zu more errors are not shown\n", n_errors - MOST_SHOWN);
     if (status != GLINT_OK && glint_errors_error_count(errors) == 0)
         report_error(&(glint_error){.status = status, .message = "failed without saying why"});
 }

@@ -105,11 +105,7 @@ static const primitive_key keys[N_KEYS] = {
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
 {
-    glint_status status = check_resolution(spec, UNIT, SCALE, errors);
-    if (!spec->given[MATERIAL] && spec->n_names == 0)
-        status = errors_add(errors, GLINT_INPUT, spec->where,
-                            "the mesh has no material; expected the key material, or materials");
-    return status;
+    return check_resolution(spec, UNIT, SCALE, errors);
 }
 
 /* A mesh on its way to facets. */
@@ -204,10 +200,11 @@ static glint_status fail_unmapped(const importer *im)
     if (names.more) text_add(&list, ", ...");
     const glint_status status =
         list.failed ? errors_no_memory(im->errors)
-                    : errors_add(im->errors, GLINT_INPUT, spec->key_place[MATERIALS],
-                                 "some faces of the mesh have no material: %s; expected the key "
+                    : errors_add(im->errors, GLINT_INPUT,
+                                 spec->n_names > 0 ? spec->key_place[MATERIALS] : spec->where,
+                                 "%s faces of the mesh have no material: %s; expected the key "
                                  "material, or entries for them in materials",
-                                 list.data);
+                                 spec->n_names > 0 ? "some" : "the", list.data);
     text_free(&list);
     return status;
 }

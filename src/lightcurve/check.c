@@ -239,6 +239,55 @@ static void report_materials(const glint_scenario *s, text *t)
     }
 }
 
+/* The track that `glint compare` holds the prediction against. */
+static void report_observed(const glint_scenario *s, text *t)
+{
+    const observed_track *o = &s->observed;
+    const char *name = s->observers[o->observer].name;
+    text_printf(t, "observed    %zu observation%s of %s (%s), magnitudes %s, band %s%s%s%s\n", o->n,
+                plural((int64_t)o->n), o->path, o->format, observed_kind_names[o->kind],
+                s->bands[o->band]->name, name[0] ? ", by " : "", name,
+                o->fit_zero_point ? "; a zero point is fitted" : "");
+    double from_s = HUGE_VAL, to_s = -HUGE_VAL;
+    for (size_t k = 0; k < o->n; k++) {
+        from_s = fmin(from_s, o->rows[k].t_s);
+        to_s = fmax(to_s, o->rows[k].t_s);
+    }
+    if (o->n > 0) {
+        glint_utc from, to;
+        run_clock_utc(&s->clock, from_s, &from);
+        run_clock_utc(&s->clock, to_s, &to);
+        char a[UTC_TEXT_SIZE], b[UTC_TEXT_SIZE];
+        utc_write(&from, a);
+        utc_write(&to, b);
+        text_printf(t, "            from %.19sZ to %.19sZ\n", a, b);
+    }
+    if (o->outside_time + o->other_filter + o->without_magnitude > 0)
+        text_printf(t,
+                    "            left out: %lld outside of [time], %lld of another filter, %lld "
+                    "without a magnitude\n",
+                    (long long)o->outside_time, (long long)o->other_filter,
+                    (long long)o->without_magnitude);
+}
+
+/* Names with commas between them, on lines of WIDTH. */
+static void report_columns(const column_set *columns, text *t)
+{
+    enum { INDENT = 12, WIDTH = 100 };
+    size_t at = INDENT;
+    text_add(t, "columns     ");
+    for (size_t i = 0; i < columns->n; i++) {
+        const char *name = columns->columns[i].name;
+        const size_t length = strlen(name) + 2;
+        const bool breaks = at > INDENT && at + length > WIDTH;
+        if (breaks) at = INDENT;
+        if (i > 0) text_add(t, breaks ? ",\n            " : ", ");
+        text_add(t, name);
+        at += length;
+    }
+    text_char(t, '\n');
+}
+
 static void report_run(const glint_scenario *s, text *t)
 {
     fact_list facts = {0};
@@ -247,22 +296,21 @@ static void report_run(const glint_scenario *s, text *t)
         if (!string_equal(facts.items[i].key, "glint_version") &&
             !string_equal(facts.items[i].key, "title") &&
             !string_equal(facts.items[i].key, "orbit") &&
+            !string_equal(facts.items[i].key, "attitude") &&
             !string_equal(facts.items[i].key, "observer") &&
             !string_equal(facts.items[i].key, "observers"))
             text_printf(t, "%-23s %s\n", facts.items[i].key, facts.items[i].value);
     fact_list_free(&facts);
     column_set columns;
     if (column_set_make(s, &columns, NULL) == GLINT_OK) {
-        text_add(t, "columns     ");
-        for (size_t i = 0; i < columns.n; i++)
-            text_printf(t, "%s%s", i ? "," : "", columns.columns[i].name);
-        text_char(t, '\n');
+        report_columns(&columns, t);
         column_set_free(&columns);
     }
     if (s->n_expectations || s->n_requirements || s->has_expected_table)
         text_printf(t, "verify      %d expected value%s, %d requirement%s%s\n", s->n_expectations,
                     plural(s->n_expectations), s->n_requirements, plural(s->n_requirements),
                     s->has_expected_table ? ", and a table of expected values" : "");
+    if (s->has_observed) report_observed(s, t);
 }
 
 static glint_status describe(const glint_scenario *s, bool is_model, text *t, glint_error *error)

@@ -1,6 +1,8 @@
 /* compare.c: the prediction at the moments of an observed track, and how they differ. */
 #include "base/constants.h"
-#include "lightcurve/pass_parts.h"
+#include "lightcurve/facts.h"
+#include "lightcurve/photometry.h"
+#include "lightcurve/predict.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,6 +11,7 @@ struct glint_comparison {
     const glint_scenario *s;  /* borrowed */
     glint_observation *items; /* owned; as the rows of the file */
     glint_comparison_summary total;
+    fact_list facts;
 };
 
 /* ------------------------------------------------------------- predictions */
@@ -59,47 +62,66 @@ static int by_time(const void *a, const void *b)
     return x->row < y->row ? -1 : x->row > y->row;
 }
 
-/* Predicts rows in the order of time, a tile at once; n > 0. */
-static glint_status predict(glint_comparison *c, light_meter *meter, const ordered_row *order,
-                            size_t n, glint_error *error)
+/* Observations in the order of time. */
+typedef struct track_order {
+    glint_comparison *c;
+    ordered_row *rows; /* owned */
+    double *t_s;       /* owned */
+} track_order;
+
+static void take_observation(void *context, size_t k, const glint_row *row)
 {
-    static const double MOST_S = DAY_S; /* a watch sees two days ahead */
-    for (size_t first = 0, count; first < n; first += count) {
-        double t_s[TILE], magnitude[TILE];
-        for (count = 0; count < TILE && first + count < n; count++) {
-            t_s[count] = order[first + count].t_s;
-            if (t_s[count] - t_s[0] > MOST_S) break;
-        }
-        const glint_status status = light_meter_read(meter, t_s, (int)count, magnitude, error);
-        if (status) return status;
-        for (size_t k = 0; k < count; k++) {
-            const size_t row = order[first + k].row;
-            fill(c->s, &c->s->observed.rows[row], &meter->photometry.rows[k], &c->items[row]);
-        }
-    }
-    return GLINT_OK;
+    const track_order *order = context;
+    const size_t at = order->rows[k].row;
+    fill(order->c->s, &order->c->s->observed.rows[at], row, &order->c->items[at]);
 }
 
-static glint_status predict_all(glint_comparison *c, glint_error *error)
+static glint_status predict_all(glint_comparison *c, int threads, glint_error *error)
 {
     const observed_track *o = &c->s->observed;
-    watch w = {.s = c->s, .viewer.observer = &c->s->observers[o->observer]};
-    light_meter meter = {0};
-    visibility *plan = NULL;
-    ordered_row *order = calloc(o->n + 1, sizeof *order);
-    glint_status status = order ? GLINT_OK : error_no_memory(error);
-    for (size_t k = 0; order && k < o->n; k++)
-        order[k] = (ordered_row){o->rows[k].t_s, k};
-    if (order && o->n > 1) qsort(order, o->n, sizeof *order, by_time);
-    if (!status) status = tile_plan_shadows(c->s, &plan, error);
-    if (!status) status = light_meter_make(&w, plan, &meter, error);
-    meter.worker.geometry.viewer = w.viewer;
-    if (!status) status = predict(c, &meter, order, o->n, error);
-    light_meter_free(&meter);
-    visibility_free(plan);
-    watch_free(&w);
-    free(order);
+    track_order order = {.c = c,
+                         .rows = calloc(o->n + 1, sizeof *order.rows),
+                         .t_s = calloc(o->n + 1, sizeof *order.t_s)};
+    glint_status status = order.rows && order.t_s ? GLINT_OK : error_no_memory(error);
+    for (size_t k = 0; !status && k < o->n; k++)
+        order.rows[k] = (ordered_row){o->rows[k].t_s, k};
+    if (!status && o->n > 1) qsort(order.rows, o->n, sizeof *order.rows, by_time);
+    for (size_t k = 0; !status && k < o->n; k++)
+        order.t_s[k] = order.rows[k].t_s;
+    if (!status)
+        status = predict_rows(c->s, &c->s->observers[o->observer], order.t_s, o->n, threads,
+                              take_observation, &order, error);
+    free(order.rows);
+    free(order.t_s);
     return status;
+}
+
+/* Magnitudes at moments of one's own choice. */
+typedef struct curve_points {
+    const glint_scenario *s;
+    double *magnitude;
+} curve_points;
+
+static void take_magnitude(void *context, size_t k, const glint_row *row)
+{
+    const curve_points *points = context;
+    const observed_track *o = &points->s->observed;
+    points->magnitude[k] = row->flux_ratio[o->band] > 0 ? reduce(o->kind, row->magnitude[o->band],
+                                                                 row->range_m, row->phase_angle_rad)
+                                                        : HUGE_VAL;
+}
+
+glint_status glint_comparison_predict(const glint_comparison *c, const double *t_s, size_t n,
+                                      int threads, double *predicted, glint_error *error)
+{
+    curve_points points = {c->s, predicted};
+    for (size_t k = 0; k < n; k++)
+        if (!(t_s[k] >= (k ? t_s[k - 1] : 0) && t_s[k] <= c->s->span_s))
+            return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                             "moment %zu is %g s; expected rising ones from 0 to %g s", k, t_s[k],
+                             c->s->span_s);
+    return predict_rows(c->s, &c->s->observers[c->s->observed.observer], t_s, n, threads,
+                        take_magnitude, &points, error);
 }
 
 /* ----------------------------------------------------------------- numbers */
@@ -225,7 +247,6 @@ static void compare_places(glint_comparison *c)
 
 static void start_total(const glint_scenario *s, glint_comparison_summary *t)
 {
-    static const char *const KINDS[] = {"apparent", "at-1000-km", "at-1000-km-90-deg"};
     const observed_track *o = &s->observed;
     *t = (glint_comparison_summary){.observations = (int64_t)o->n + o->outside_time +
                                                     o->other_filter + o->without_magnitude,
@@ -233,8 +254,9 @@ static void start_total(const glint_scenario *s, glint_comparison_summary *t)
                                     .other_filter = o->other_filter,
                                     .without_magnitude = o->without_magnitude,
                                     .fitted = o->fit_zero_point,
+                                    .title = s->title,
                                     .band = s->bands[o->band]->name,
-                                    .kind = KINDS[o->kind],
+                                    .kind = observed_kind_names[o->kind],
                                     .format = o->format,
                                     .file = o->path};
 }
@@ -253,7 +275,8 @@ static glint_status check_scenario(const glint_scenario *s, glint_error *error)
     return GLINT_OK;
 }
 
-glint_status glint_compare(const glint_scenario *s, glint_comparison **out, glint_error *error)
+glint_status glint_compare(const glint_scenario *s, int threads, glint_comparison **out,
+                           glint_error *error)
 {
     *out = NULL;
     glint_status status = check_scenario(s, error);
@@ -266,7 +289,8 @@ glint_status glint_compare(const glint_scenario *s, glint_comparison **out, glin
     }
     c->s = s;
     start_total(s, &c->total);
-    status = predict_all(c, error);
+    facts_of_run(s, &c->facts);
+    status = c->facts.failed ? error_no_memory(error) : predict_all(c, threads, error);
     if (status) {
         glint_comparison_free(c);
         return status;
@@ -286,6 +310,7 @@ void glint_comparison_free(glint_comparison *c)
 {
     if (!c) return;
     free(c->items);
+    fact_list_free(&c->facts);
     free(c);
 }
 
@@ -294,6 +319,12 @@ bool glint_comparison_get(const glint_comparison *c, size_t k, glint_observation
     if (k >= c->s->observed.n) return false;
     *out = c->items[k];
     return true;
+}
+
+bool glint_comparison_fact(const glint_comparison *c, size_t k, const char **key,
+                           const char **value)
+{
+    return fact_list_get(&c->facts, k, key, value);
 }
 
 void glint_comparison_total(const glint_comparison *c, glint_comparison_summary *out)

@@ -298,10 +298,7 @@ bool glint_curve_unmeasured(const glint_curve *c, size_t k, const char **materia
 
 bool glint_curve_fact(const glint_curve *c, size_t k, const char **key, const char **value)
 {
-    if (k >= c->facts.n) return false;
-    *key = c->facts.items[k].key;
-    *value = c->facts.items[k].value;
-    return true;
+    return fact_list_get(&c->facts, k, key, value);
 }
 
 bool glint_curve_reads(const glint_curve *c, const char *path)

@@ -441,10 +441,7 @@ const glint_column *glint_ephemeris_columns(const glint_ephemeris *e, size_t *n)
 
 bool glint_ephemeris_fact(const glint_ephemeris *e, size_t k, const char **key, const char **value)
 {
-    if (k >= e->facts.n) return false;
-    *key = e->facts.items[k].key;
-    *value = e->facts.items[k].value;
-    return true;
+    return fact_list_get(&e->facts, k, key, value);
 }
 
 bool glint_ephemeris_reads(const glint_ephemeris *e, const char *path)

@@ -13,9 +13,7 @@
 
 #include "glint_version.h"
 
-static void add(fact_list *list, const char *key, const char *format, ...) GLINT_PRINTF(3, 4);
-
-static void add(fact_list *list, const char *key, const char *format, ...)
+void fact_list_add(fact_list *list, const char *key, const char *format, ...)
 {
     if (list->failed) return;
     if (list->n == list->capacity) {
@@ -45,6 +43,14 @@ static void add(fact_list *list, const char *key, const char *format, ...)
         list->failed = true;
     }
     va_end(again);
+}
+
+bool fact_list_get(const fact_list *list, size_t k, const char **key, const char **value)
+{
+    if (k >= list->n) return false;
+    *key = list->items[k].key;
+    *value = list->items[k].value;
+    return true;
 }
 
 void fact_list_free(fact_list *list)
@@ -221,7 +227,8 @@ static void add_observers(const glint_scenario *s, fact_list *out)
     if (all.failed)
         out->failed = true;
     else
-        add(out, s->n_observers > 1 ? "observers" : "observer", "%s", all.data ? all.data : "");
+        fact_list_add(out, s->n_observers > 1 ? "observers" : "observer", "%s",
+                      all.data ? all.data : "");
     text_free(&all);
 }
 
@@ -245,9 +252,10 @@ static void add_orientation(const glint_scenario *s, fact_list *out)
     char dut1[NUMBER_SIZE + 1];
     dut1[number_format(s->clock.dut1_s, dut1)] = '\0';
     if (!s->eop) {
-        add(out, "dut1_s", "%s%s", dut1,
-            s->dut1_s == 0 ? " (UT1-UTC taken as 0: at most 0.9 s, 0.4 km on the equator)" : "");
-        add(out, "polar_motion", "taken as 0 (at most 0.6 arcsec, 20 m on the ground)");
+        fact_list_add(out, "dut1_s", "%s%s", dut1,
+                      s->dut1_s == 0 ? " (UT1-UTC taken as 0: at most 0.9 s, 0.4 km on the equator)"
+                                     : "");
+        fact_list_add(out, "polar_motion", "taken as 0 (at most 0.6 arcsec, 20 m on the ground)");
         return;
     }
     int first, last, predicted;
@@ -255,12 +263,12 @@ static void add_orientation(const glint_scenario *s, fact_list *out)
     eop_span(s->eop, &first, &last, &predicted);
     write_date(predicted, since);
     write_date(last, tt_end);
-    add(out, "dut1_s", "%.7f at the start (UT1-UTC), then as in eop", s->clock.dut1_s);
-    add(out, "polar_motion", "as in eop");
-    add(out, "eop", "%s (%s%s), linear between its days; %s%s", s->eop_name, eop_format(s->eop),
-        string_equal(eop_format(s->eop), "C04") ? "" : ", Bulletin A",
-        predicted <= last ? "predictions from " : "no predictions up to ",
-        predicted <= last ? since : tt_end);
+    fact_list_add(out, "dut1_s", "%.7f at the start (UT1-UTC), then as in eop", s->clock.dut1_s);
+    fact_list_add(out, "polar_motion", "as in eop");
+    fact_list_add(out, "eop", "%s (%s%s), linear between its days; %s%s", s->eop_name,
+                  eop_format(s->eop), string_equal(eop_format(s->eop), "C04") ? "" : ", Bulletin A",
+                  predicted <= last ? "predictions from " : "no predictions up to ",
+                  predicted <= last ? since : tt_end);
 }
 
 static void add_bands(const glint_scenario *s, fact_list *out)
@@ -269,15 +277,15 @@ static void add_bands(const glint_scenario *s, fact_list *out)
         char key[32], value[NUMBER_SIZE + 1];
         snprintf(key, sizeof key, "zero_point_%s", s->bands[b]->name);
         value[number_format(s->sun_magnitude[b], value)] = '\0';
-        add(out, key, "apparent magnitude of the Sun %s (%s; " BAND_SOURCE ")", value,
-            magnitude_system_name(s->systems[b]));
+        fact_list_add(out, key, "apparent magnitude of the Sun %s (%s; " BAND_SOURCE ")", value,
+                      magnitude_system_name(s->systems[b]));
         if (!s->has_extinction) continue;
         snprintf(key, sizeof key, "extinction_%s", s->bands[b]->name);
         value[number_format(s->extinction[b], value)] = '\0';
-        add(out, key, "%s mag per airmass, in mag_%s, not in flux_ratio_%s", value,
-            s->bands[b]->name, s->bands[b]->name);
+        fact_list_add(out, key, "%s mag per airmass, in mag_%s, not in flux_ratio_%s", value,
+                      s->bands[b]->name, s->bands[b]->name);
     }
-    if (!s->has_extinction) add(out, "extinction", "none");
+    if (!s->has_extinction) fact_list_add(out, "extinction", "none");
 }
 
 /* What the camera does, and magnitudes at 1000 km. */
@@ -286,19 +294,21 @@ static void add_camera(const glint_scenario *s, fact_list *out)
     char value[NUMBER_SIZE + 1];
     value[number_format(s->exposure_s, value)] = '\0';
     if (s->exposure_s > 0)
-        add(out, "exposure",
+        fact_list_add(
+            out, "exposure",
             "light is averaged over %s s, centred on the row's time; angles, ranges and flags (but "
             "'dark') are those of that time",
             value);
     for (int b = 0; s->has_telescope && b < s->n_bands; b++)
-        add(out, "telescope",
-            "%.4g m; %s of magnitude 0 in %s gives %.4g electrons per s; sky %.4g "
-            "mag per square arcsec; %s",
-            s->telescope.aperture_m, "a star above the atmosphere", s->bands[b]->name,
-            s->telescope.electrons_s[b], s->telescope.sky_mag[b],
-            s->telescope.follows ? "it follows the satellite" : "it follows the stars");
+        fact_list_add(out, "telescope",
+                      "%.4g m; %s of magnitude 0 in %s gives %.4g electrons per s; sky %.4g "
+                      "mag per square arcsec; %s",
+                      s->telescope.aperture_m, "a star above the atmosphere", s->bands[b]->name,
+                      s->telescope.electrons_s[b], s->telescope.sky_mag[b],
+                      s->telescope.follows ? "it follows the satellite" : "it follows the stars");
     if (s->standard)
-        add(out, "standard_magnitudes",
+        fact_list_add(
+            out, "standard_magnitudes",
             "at 1000 km, with the phase law of a diffuse (Lambertian) sphere; sunlit_fraction and "
             "the Sun's distance stay in them");
 }
@@ -312,7 +322,7 @@ static void add_attitude(const glint_scenario *s, fact_list *out)
     if (lines.failed) out->failed = true;
     for (char *line = lines.data, *end; line && (end = strchr(line, '\n')); line = end + 1) {
         *end = '\0';
-        add(out, "attitude", "%s", line);
+        fact_list_add(out, "attitude", "%s", line);
     }
     text_free(&lines);
     for (int k = 0; k < s->attitude.n; k++) {
@@ -320,31 +330,32 @@ static void add_attitude(const glint_scenario *s, fact_list *out)
         tables = tables || s->attitude.legs[k].law.table;
     }
     if (slews)
-        add(out, "attitude_slews",
-            "at a steady share of the turn between the two laws, by the "
-            "shorter way when the slew begins; no wheel ramps up or down");
+        fact_list_add(out, "attitude_slews",
+                      "at a steady share of the turn between the two laws, by the "
+                      "shorter way when the slew begins; no wheel ramps up or down");
     if (tables)
-        add(out, "attitude_tables",
-            "between rows by the shortest way at a steady rate; nothing is "
-            "read outside their spans");
+        fact_list_add(out, "attitude_tables",
+                      "between rows by the shortest way at a steady rate; nothing is "
+                      "read outside their spans");
 }
 
 static void add_time(const glint_scenario *s, fact_list *out)
 {
-    add(out, "time_scale",
-        "utc is the reception at the observer; t_s counts TT seconds from the start");
+    fact_list_add(out, "time_scale",
+                  "utc is the reception at the observer; t_s counts TT seconds from the start");
     add_orientation(s, out);
-    if (s->clock.dubious) add(out, "leap_seconds", "not known for these years");
+    if (s->clock.dubious) fact_list_add(out, "leap_seconds", "not known for these years");
     char *line = fact_orbit(s, &s->orbit);
-    add(out, "orbit", "%s", line ? line : "");
+    fact_list_add(out, "orbit", "%s", line ? line : "");
     free(line);
     char *sets = fact_element_sets(s, &s->orbit);
-    if (sets) add(out, "element_sets", "%s", sets);
+    if (sets) fact_list_add(out, "element_sets", "%s", sets);
     free(sets);
     add_attitude(s, out);
-    add(out, "light_time", s->light_time ? "yes" : "no");
-    add(out, "aberration", s->aberration ? "yes, of the Sun" : "no");
-    add(out, "eclipse",
+    fact_list_add(out, "light_time", s->light_time ? "yes" : "no");
+    fact_list_add(out, "aberration", s->aberration ? "yes, of the Sun" : "no");
+    fact_list_add(
+        out, "eclipse",
         "by the WGS84 ellipsoid and by the Moon's disc (place good to 25 km), uniform solar disc, "
         "no refraction in the atmosphere");
     add_observers(s, out);
@@ -352,11 +363,11 @@ static void add_time(const glint_scenario *s, fact_list *out)
 
 static void add_origin(const glint_scenario *s, fact_list *out)
 {
-    add(out, "glint_version", GLINT_VERSION_TEXT);
-    if (s->title[0]) add(out, "title", "%s", s->title);
-    add(out, "scenario_hash", "fnv1a64:%016llx", (unsigned long long)scenario_hash(s));
+    fact_list_add(out, "glint_version", GLINT_VERSION_TEXT);
+    if (s->title[0]) fact_list_add(out, "title", "%s", s->title);
+    fact_list_add(out, "scenario_hash", "fnv1a64:%016llx", (unsigned long long)scenario_hash(s));
     for (size_t k = 0; k < s->n_overrides; k++)
-        add(out, "set", "%s", s->overrides[k]);
+        fact_list_add(out, "set", "%s", s->overrides[k]);
 }
 
 /* What of the hemisphere measured materials cover. */
@@ -370,7 +381,8 @@ static void add_measured(const glint_scenario *s, fact_list *out)
                 if (!(band->lobes[l].model->flags & BRDF_MEASURED)) continue;
                 table_facts facts;
                 table_describe(&band->lobes[l], &facts);
-                add(out, "measured",
+                fact_list_add(
+                    out, "measured",
                     "material %s in %s: %d rows%s; %.0f %% of the hemisphere lie between them, and "
                     "elsewhere the nearest values hold",
                     s->satellite.materials[m].name, s->bands[b]->name, facts.n_rows,
@@ -388,7 +400,8 @@ static void add_flicker(const glint_scenario *s, fact_list *out)
     for (int m = 0; m < s->satellite.n_materials; m++) {
         const scenario_material *material = &s->satellite.materials[m];
         if (material->flicker_rad > 0.0)
-            add(out, "mesh_flickers",
+            fact_list_add(
+                out, "mesh_flickers",
                 "%s: its lobe is narrower than its mesh, which bends by %.3g deg from facet to "
                 "facet",
                 material->name, material->flicker_rad / DEG);
@@ -410,10 +423,11 @@ void fact_lobe(const brdf_lobe *lobe, text *t)
 static void add_earthshine(const glint_scenario *s, fact_list *out)
 {
     if (!s->earth.wanted) {
-        add(out, "earthshine", "none");
+        fact_list_add(out, "earthshine", "none");
         return;
     }
-    add(out, "earthshine",
+    fact_list_add(
+        out, "earthshine",
         "from a sphere of %.7g km, lit by the Sun's centre, in %d rings of directions; no clouds, "
         "no "
         "seasons; %s; pieces of curved surfaces count as flat",
@@ -429,8 +443,8 @@ static void add_earthshine(const glint_scenario *s, fact_list *out)
             if (l) text_add(&ground, " + ");
             fact_lobe(&s->earth.ground[b].lobes[l], &ground);
         }
-        add(out, "earthshine_ground", "from %s on: %s", s->bands[b]->name,
-            ground.data ? ground.data : "");
+        fact_list_add(out, "earthshine_ground", "from %s on: %s", s->bands[b]->name,
+                      ground.data ? ground.data : "");
         text_free(&ground);
     }
 }
@@ -450,18 +464,21 @@ static void add_shadows(const glint_scenario *s, fact_list *out)
     static const char *const AREA =
         "facets shine with the area that is both lit by the Sun and seen by the observer";
     if (s->self_shadows == SHADOWS_NONE)
-        add(out, "self_shadows", "none: shadows that parts cast on each other are neglected");
+        fact_list_add(out, "self_shadows",
+                      "none: shadows that parts cast on each other are neglected");
     else if (s->self_shadows == SHADOWS_INTERPOLATED)
-        add(out, "self_shadows",
+        fact_list_add(
+            out, "self_shadows",
             "interpolated: %s; exact every %g deg of motion, and interpolated between: off by "
             "about %.2g of the mean flux, rms",
             AREA, s->shadow_step / DEG, INTERPOLATION_RMS_PER_RAD * s->shadow_step);
     else if (s->self_shadows == SHADOWS_RAYS)
-        add(out, "self_shadows",
+        fact_list_add(
+            out, "self_shadows",
             "rays: %s, by %d points of each facet: its fraction is off by up to %.2g, rms", AREA,
             s->rays_per_facet, 0.5 * pow(s->rays_per_facet, -0.7));
     else
-        add(out, "self_shadows", "exact: %s", AREA);
+        fact_list_add(out, "self_shadows", "exact: %s", AREA);
 }
 
 void facts_of_run(const glint_scenario *s, fact_list *out)
@@ -469,7 +486,7 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
     add_origin(s, out);
     add_bands(s, out);
     if (s->has_geometry)
-        add(out, "geometry", "directions given in the body frame, the Sun at 1 au");
+        fact_list_add(out, "geometry", "directions given in the body frame, the Sun at 1 au");
     else
         add_time(s, out);
     add_camera(s, out);
@@ -483,9 +500,10 @@ void facts_of_run(const glint_scenario *s, fact_list *out)
         [SOLAR_LIMB_DARKENED] = "limb-darkened (linear, u = 0.6): the mean over the Sun's disc; "
                                 "shadows between parts are those of its centre",
         [SOLAR_POINT] = "point: facets see the Sun's light from the centre of its disc"};
-    add(out, "solar_disc", "%s", DISCS[s->solar_disc]);
+    fact_list_add(out, "solar_disc", "%s", DISCS[s->solar_disc]);
     add_earthshine(s, out);
-    add(out, "not_modelled",
+    fact_list_add(
+        out, "not_modelled",
         "interreflection between parts, polarisation, transmission, thermal emission, moonlight%s",
         s->has_geometry || any_refraction(s) ? "" : ", refraction of the line of sight");
 }

@@ -15,6 +15,10 @@ typedef struct fact_list {
     bool failed; /* memory ran out */
 } fact_list;
 
+/* Appends a fact; `failed` is set when memory runs out. */
+void fact_list_add(fact_list *list, const char *key, const char *format, ...) GLINT_PRINTF(3, 4);
+/* Fact k from 0, borrowed; false past the end. */
+bool fact_list_get(const fact_list *list, size_t k, const char **key, const char **value);
 /* Everything that the header of a table says of the run. */
 void facts_of_run(const glint_scenario *s, fact_list *out);
 /* Of these, what concerns positions only. */

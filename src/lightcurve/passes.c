@@ -14,6 +14,7 @@ struct glint_passes {
     const glint_scenario *s; /* borrowed */
     glint_pass *items;       /* owned, with their events */
     size_t n;
+    fact_list facts;
 };
 
 /* What a search shares between its threads. */
@@ -273,11 +274,18 @@ glint_status glint_passes_find(const glint_scenario *s, const glint_pass_options
     glint_passes *passes = calloc(1, sizeof *passes);
     if (!passes) return error_no_memory(error);
     passes->s = s;
+    if (s->has_satellite && s->has_attitude)
+        facts_of_run(s, &passes->facts);
+    else
+        facts_of_orbit(s, &passes->facts);
     pass_search search = {.s = s,
                           .has_light = s->has_satellite && s->has_attitude,
                           .flash_angle =
                               o.flash_angle_rad > 0 ? o.flash_angle_rad : USUAL_FLASH_ANGLE};
-    status = find_all(&search, o.threads > 0 ? o.threads : omp_get_num_procs(), passes, error);
+    status =
+        passes->facts.failed
+            ? error_no_memory(error)
+            : find_all(&search, o.threads > 0 ? o.threads : omp_get_num_procs(), passes, error);
     if (status) {
         if (error && !error->file[0])
             snprintf(error->file, sizeof error->file, "%s", s->documents[0]->path);
@@ -301,6 +309,7 @@ void glint_passes_free(glint_passes *passes)
     for (size_t k = 0; k < passes->n; k++)
         free(without_const(passes->items[k].events));
     free(passes->items);
+    fact_list_free(&passes->facts);
     free(passes);
 }
 
@@ -353,6 +362,11 @@ const char *glint_compass_point(double azimuth_rad)
                                          "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
     const double turns = azimuth_rad / TWO_PI;
     return POINTS[(int)floor((turns - floor(turns)) * 16 + 0.5) % 16];
+}
+
+bool glint_passes_fact(const glint_passes *passes, size_t k, const char **key, const char **value)
+{
+    return fact_list_get(&passes->facts, k, key, value);
 }
 
 bool glint_passes_reads(const glint_passes *passes, const char *path)

@@ -1,6 +1,7 @@
 /* shares.c: what gives the light: a run of the satellite, and one of it with changes, row by row
  * beside each other. */
 #include "base/text.h"
+#include "lightcurve/facts.h"
 #include "scenario/scenario.h"
 
 #include <math.h>
@@ -35,6 +36,7 @@ struct glint_shares {
     bool has_changes;
     numbers differences;
     glint_shares_change change;
+    fact_list facts;
 };
 
 static bool numbers_add(numbers *list, double value)
@@ -249,6 +251,15 @@ static glint_status read_changed(const char *path, const char *const *overrides,
     return status;
 }
 
+static void list_facts(glint_shares *sh, const glint_changes *changes)
+{
+    facts_of_run(sh->plain.s, &sh->facts);
+    for (size_t k = 0; changes && k < changes->n_swaps; k++)
+        fact_list_add(&sh->facts, "swap", "%s", changes->swaps[k]);
+    for (size_t k = 0; changes && k < changes->n_without; k++)
+        fact_list_add(&sh->facts, "without", "%s", changes->without[k]);
+}
+
 glint_status glint_shares_find(const char *path, const char *const *overrides, size_t n_overrides,
                                const glint_changes *changes, int threads, glint_progress *progress,
                                void *context, glint_shares **out, glint_errors *errors)
@@ -262,6 +273,9 @@ glint_status glint_shares_find(const char *path, const char *const *overrides, s
     if (!status && sh->has_changes)
         status = read_changed(path, overrides, n_overrides, changes, sh, errors);
     if (!status && (start_run(&sh->plain) || (sh->has_changes && start_run(&sh->changed))))
+        status = errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
+    if (!status) list_facts(sh, changes);
+    if (!status && sh->facts.failed)
         status = errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
     if (!status) status = run_both(sh, threads, progress, context, errors);
     if (status)
@@ -277,6 +291,7 @@ void glint_shares_free(glint_shares *sh)
     free_run(&sh->plain);
     free_run(&sh->changed);
     free(sh->differences.items);
+    fact_list_free(&sh->facts);
     free(sh);
 }
 
@@ -336,7 +351,12 @@ bool glint_shares_difference(const glint_shares *sh, glint_shares_change *out)
     return sh->has_changes;
 }
 
-const glint_scenario *glint_shares_scenario(const glint_shares *sh)
+bool glint_shares_fact(const glint_shares *sh, size_t k, const char **key, const char **value)
 {
-    return sh->has_changes ? sh->changed.s : sh->plain.s;
+    return fact_list_get(&sh->facts, k, key, value);
+}
+
+const glint_scenario *glint_shares_scenario(const glint_shares *sh, bool changed)
+{
+    return changed ? sh->changed.s : sh->plain.s; /* NULL without changes */
 }

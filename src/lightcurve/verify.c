@@ -19,6 +19,8 @@ typedef struct tally {
     int64_t worst_index; /* of that row, counted from 0 */
     bool any_worst;
     char surface[192]; /* what most of the light of that row comes from; "" where not known */
+    double *excess;    /* owned; of each selected row: magnitude less limit, HUGE_VAL where dark */
+    size_t capacity;
 } tally;
 
 typedef struct verification {
@@ -30,6 +32,7 @@ typedef struct verification {
     size_t *require_column; /* owned */
     size_t *when_column;    /* owned; of all conditions of all requirements, in order */
     tally *tallies;         /* owned */
+    text report;            /* owned; a line for each requirement */
     int64_t row;            /* rows so far */
     glint_verdict verdict;
     glint_errors *errors;
@@ -115,6 +118,8 @@ static void release(verification *v)
     free(v->table_column);
     free(v->require_column);
     free(v->when_column);
+    for (int i = 0; v->tallies && i < v->s->n_requirements; i++)
+        free(v->tallies[i].excess);
     free(v->tallies);
 }
 
@@ -186,6 +191,19 @@ static bool is_selected(const verification *v, const requirement *r, const size_
     return true;
 }
 
+static bool keep_excess(tally *t, double excess)
+{
+    if ((size_t)t->selected == t->capacity) {
+        const size_t capacity = t->capacity ? 2 * t->capacity : 1024;
+        double *items = realloc(t->excess, capacity * sizeof *items);
+        if (!items) return false;
+        t->excess = items;
+        t->capacity = capacity;
+    }
+    t->excess[t->selected] = excess;
+    return true;
+}
+
 static void hold_requirements(verification *v, const glint_row *row)
 {
     size_t at = 0;
@@ -198,6 +216,10 @@ static void hold_requirements(verification *v, const glint_row *row)
         double value, limit = r->fainter_than;
         if (r->has_reference) limit += 2.5 * log10(row->height_m / r->reference_height_m);
         const bool bright = glint_curve_value(v->curve, row, v->require_column[i], &value);
+        if (!keep_excess(t, bright ? value - limit : HUGE_VAL)) {
+            v->status = errors_no_memory(v->errors);
+            return;
+        }
         t->selected++;
         if (!bright || value > limit) { /* a dark satellite is fainter than anything */
             t->met++;
@@ -262,8 +284,41 @@ static void find_surfaces(verification *v)
     glint_scenario_free(s);
 }
 
+static int rising(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* By how much all rows may brighten (must fade, where negative) until a requirement is just met:
+ * the excess of the row that is then the brightest of those that must be fainter. Sorts. */
+static double margin_of(const requirement *r, tally *t)
+{
+    const double ROUNDED = 1e-9; /* of a fraction of rows that is a whole number */
+    const int64_t needed = (int64_t)ceil(r->for_fraction * (double)t->selected - ROUNDED);
+    qsort(t->excess, (size_t)t->selected, sizeof *t->excess, rising);
+    return needed > 0 ? t->excess[t->selected - needed] : HUGE_VAL;
+}
+
+static void report_requirement(const requirement *r, tally *t, text *out)
+{
+    if (t->selected == 0) return;
+    text_printf(out, "%s fainter than %g", r->column, r->fainter_than);
+    if (r->has_reference) text_printf(out, " (at a height of %g km)", r->reference_height_m * 1e-3);
+    text_printf(out, " in %.4g %% of %lld rows, required %.4g %%; ", 100 * met_fraction(t),
+                (long long)t->selected, 100 * r->for_fraction);
+    const double margin = margin_of(r, t);
+    if (margin < HUGE_VAL)
+        text_printf(out, "margin %+.3f mag\n", margin);
+    else
+        text_add(out, "any brightness would do\n");
+}
+
 static void judge_requirements(verification *v)
 {
+    for (int i = 0; i < v->s->n_requirements; i++)
+        report_requirement(&v->s->requirements[i], &v->tallies[i], &v->report);
+
     for (int i = 0; i < v->s->n_requirements; i++) {
         const requirement *r = &v->s->requirements[i];
         const tally *t = &v->tallies[i];
@@ -349,7 +404,12 @@ static glint_status verify_scenario(const glint_scenario *s, int threads, glint_
         find_columns(&v);
         status = v.status ? v.status : hold_all(&v, curve);
     }
+    if (v.report.failed && !status) status = errors_no_memory(errors);
     *verdict = v.verdict;
+    if (v.report.failed || !v.report.data)
+        text_free(&v.report);
+    else
+        verdict->requirements = v.report.data;
     release(&v);
     glint_curve_close(curve);
     return status;
@@ -363,6 +423,9 @@ glint_status glint_verify(const char *path, const char *const *overrides, size_t
     glint_status status = glint_scenario_read(path, overrides, n_overrides, &s, errors);
     if (!status) status = verify_scenario(s, threads, &own, errors);
     glint_scenario_free(s);
-    if (verdict) *verdict = own;
+    if (verdict)
+        *verdict = own;
+    else
+        free(own.requirements);
     return status;
 }

@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "orbit/attitude_table.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 glint_status attitude_plan_add(attitude_plan *plan, const attitude_leg *leg, glint_errors *errors)
@@ -147,6 +148,19 @@ static bool lengths_differ(const attitude_leg *leg)
     return false;
 }
 
+/* The turn of a law's own, and the offset. */
+static void describe_turns(const attitude *law, text *out)
+{
+    const attitude_turning own = attitude_turning_of(law);
+    if (own.is_steady && own.fastest_rad_s > 0)
+        text_printf(out, ", one turn in %.6g s", TWO_PI / own.fastest_rad_s);
+    else if (own.fastest_rad_s > 0 && !law->table)
+        text_printf(out, ", at most %.6g deg/s", own.fastest_rad_s / DEG);
+    if (!law->has_offset) return;
+    const double *m = law->offset, cosine = 0.5 * (m[0] + m[4] + m[8] - 1);
+    text_printf(out, ", with an offset of %.6g deg", acos(fmax(-1, fmin(cosine, 1))) / DEG);
+}
+
 void attitude_plan_describe(const attitude_plan *plan, const char *indent, text *out)
 {
     for (int k = 0; k < plan->n; k++) {
@@ -161,7 +175,7 @@ void attitude_plan_describe(const attitude_plan *plan, const char *indent, text 
             text_add(out, ": ");
             attitude_table_describe(leg->law.table, out);
         }
-        if (leg->law.has_offset) text_add(out, ", with an offset");
+        describe_turns(&leg->law, out);
         text_char(out, '\n');
     }
 }

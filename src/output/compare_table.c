@@ -1,11 +1,8 @@
 /* compare_table.c: a prediction beside an observed track: as a table for people, as CSV with an
- * ECSV header, as JSON, as a picture. */
+ * ECSV header, as JSON. */
 #include "output/ecsv.h"
+#include "output/facts.h"
 #include "output/json.h"
-#include "output/plot.h"
-
-#include <math.h>
-#include <stdlib.h>
 
 static const double DEGREES = 57.295779513082320877; /* per rad */
 
@@ -178,11 +175,15 @@ static void csv_row(const glint_observation *o, double zero_point, text *t)
     text_char(t, '\n');
 }
 
+static bool fact_of(const void *comparison, size_t k, const char **key, const char **value)
+{
+    return glint_comparison_fact(comparison, k, key, value);
+}
+
 static void csv_facts(const glint_comparison_summary *s, text *t)
 {
     fact facts[N_FACTS];
     list_facts(s, facts);
-    ecsv_fact(t, "glint_version", glint_version());
     ecsv_fact(t, "file", s->file);
     ecsv_fact(t, "format", s->format);
     ecsv_fact(t, "magnitude", s->kind);
@@ -203,6 +204,7 @@ static void write_csv(const glint_comparison *c, const glint_comparison_summary 
 {
     glint_observation o;
     ecsv_begin(t, COLUMNS, N_COLUMNS);
+    ecsv_facts(t, fact_of, c);
     csv_facts(s, t);
     ecsv_end(t, COLUMNS, N_COLUMNS);
     for (size_t k = 0; glint_comparison_get(c, k, &o); k++)
@@ -247,7 +249,7 @@ static void write_json(const glint_comparison *c, const glint_comparison_summary
     json j = {.out = t};
     list_facts(s, facts);
     json_object(&j, NULL);
-    json_string(&j, "glint_version", glint_version());
+    json_facts(&j, fact_of, c);
     json_string(&j, "file", s->file);
     json_string(&j, "format", s->format);
     json_string(&j, "magnitude", s->kind);
@@ -276,112 +278,5 @@ glint_status glint_comparison_write(const glint_comparison *c, glint_format form
     const glint_status status =
         t.failed ? error_no_memory(error) : glint_text_write(path, t.data, t.length, error);
     text_free(&t);
-    return status;
-}
-
-/* ------------------------------------------------------------------ picture */
-
-/* Compared observations, in the order of time. */
-static int in_time(const void *a, const void *b)
-{
-    const glint_observation *x = a, *y = b;
-    if (x->t_s != y->t_s) return x->t_s < y->t_s ? -1 : 1;
-    return (x->line > y->line) - (x->line < y->line);
-}
-
-static glint_observation *compared_in_time(const glint_comparison *c, size_t *n)
-{
-    size_t all = 0;
-    glint_observation o;
-    while (glint_comparison_get(c, all, &o))
-        all++;
-    glint_observation *items = calloc(all + 1, sizeof *items);
-    *n = 0;
-    for (size_t k = 0; items && k < all; k++) {
-        glint_comparison_get(c, k, &o);
-        if (o.state == GLINT_COMPARED) items[(*n)++] = o;
-    }
-    if (items && *n > 1) qsort(items, *n, sizeof *items, in_time);
-    return items;
-}
-
-/* Blocks of points: t, observed, sigma, residual; and t, predicted, with a blank line where the
- * track is interrupted: for ten times the mean step, and 10 s. */
-static void write_points(const glint_observation *items, size_t n, double zero_point, text *t)
-{
-    static const double MEAN_STEPS = 10, LEAST_S = 10;
-    const double span_s = items[n - 1].t_s - items[0].t_s;
-    const double gap_s = fmax(LEAST_S, n > 1 ? MEAN_STEPS * span_s / (double)(n - 1) : 0);
-    text_add(t, "$observed << end\n");
-    for (size_t k = 0; k < n; k++)
-        text_printf(t, "%.6f %.5f %.5f %.5f\n", items[k].t_s - items[0].t_s, items[k].observed,
-                    items[k].sigma, items[k].residual);
-    text_add(t, "end\n$predicted << end\n");
-    for (size_t k = 0; k < n; k++) {
-        if (k > 0 && items[k].t_s - items[k - 1].t_s > gap_s) text_char(t, '\n');
-        text_printf(t, "%.6f %.5f\n", items[k].t_s - items[0].t_s, items[k].predicted + zero_point);
-    }
-    text_add(t, "end\n");
-}
-
-static void write_script(const glint_observation *items, size_t n,
-                         const glint_comparison_summary *s, text *t)
-{
-    text title = {0}, axis = {0};
-    text_printf(&title, "rms %.3f mag", s->rms);
-    if (s->has_r) text_printf(&title, ", R %.3f", s->r);
-    if (s->fitted) text_printf(&title, ", zero point %+.3f mag", s->zero_point);
-    text_add(&axis, "s since ");
-    add_utc(&axis, &items[0].utc);
-    write_points(items, n, s->zero_point, t);
-    text_add(t, "set grid lt 1 lc rgb '#d8d8d8' lw 1 dt solid\nset border lc rgb '#444444'\n"
-                "set lmargin 10\nset rmargin 4\nset tics nomirror\nset multiplot title ");
-    plot_quote(t, title.failed ? "" : title.data);
-    text_printf(t,
-                " noenhanced\nset tmargin at screen 0.91\nset bmargin at screen 0.40\n"
-                "set format x ''\nset yrange [*:*] reverse\nset ylabel 'magnitude %s' noenhanced\n"
-                "set offsets 0,0,graph 0.05,graph 0.05\nset key bottom left\n",
-                s->band);
-    text_add(t, "plot $observed using 1:2:($3 > 0 ? $3 : NaN) with yerrorbars pt 7 ps 0 lc rgb "
-                "'#b0b0b0' notitle, "
-                "$observed using 1:2 with points pt 7 ps 0.5 lc rgb '#c0392b' title 'observed', "
-                "$predicted using 1:2 with lines lw 2 lc rgb '#1f4e79' title 'predicted', "
-                "$predicted using 1:2 with points pt 7 ps 0.2 lc rgb '#1f4e79' notitle\n"
-                "set tmargin at screen 0.36\nset bmargin at screen 0.12\nset format x '%g'\n"
-                "set yrange [*:*] noreverse\nset ylabel 'observed - predicted'\nunset key\n"
-                "set xlabel ");
-    plot_quote(t, axis.failed ? "" : axis.data);
-    text_add(t, " noenhanced\n"
-                "plot 0 with lines lc rgb '#1f4e79' lw 1, $observed using 1:4 with points pt 7 "
-                "ps 0.5 lc rgb '#c0392b'\nunset multiplot\n");
-    t->failed = t->failed || title.failed || axis.failed;
-    text_free(&title);
-    text_free(&axis);
-}
-
-glint_status glint_comparison_plot(const glint_comparison *c, const char *path, glint_error *error)
-{
-    glint_comparison_summary total;
-    plot *picture;
-    size_t n;
-    text script = {0};
-    glint_comparison_total(c, &total);
-    glint_status status = plot_open(path, &picture, error);
-    if (status) return status;
-    glint_observation *items = compared_in_time(c, &n);
-    if (!items)
-        status = error_no_memory(error);
-    else if (n == 0)
-        status = error_set(error, GLINT_INPUT, (place){total.file, 0, 0},
-                           "no observation could be compared, so there is nothing to draw");
-    else
-        write_script(items, n, &total, &script);
-    if (!status && script.failed) status = error_no_memory(error);
-    if (status)
-        plot_abandon(picture);
-    else
-        status = plot_finish(picture, script.data, script.length, error);
-    text_free(&script);
-    free(items);
     return status;
 }

@@ -28,9 +28,13 @@ typedef struct extremes {
 enum { BY_MATERIAL, BY_COMPONENT, BY_SURFACE, N_KINDS };
 static const char *const PREFIXES[N_KINDS] = {"share_material_", "share_component_",
                                               "share_surface_"};
-static const char *const SHARE_OF[N_KINDS] = {"material share", "component share", "surface share"};
+/* What axes say: where surfaces are drawn, panels have no room for more. */
+static const char *const SHARE_OF[N_KINDS] = {"material share", "component share", ""};
+static const char *const NAMES_OF[N_KINDS] = {"materials", "components", "surfaces"};
 
 static const char MAGNITUDE[] = "mag_", FLUX[] = "flux_ratio_";
+
+#define OTHERS SIZE_MAX
 
 struct curve_plot {
     const glint_curve *curve; /* borrowed */
@@ -42,25 +46,21 @@ struct curve_plot {
     bool waxing, waning;     /* the phase angle has only grown so far, or only fallen */
     size_t n_stretches, n_bands, n_shares;
     size_t *band_columns;  /* owned */
-    size_t *share_columns; /* owned */
-    size_t *kept;          /* owned; n_shares: scratch */
-    extremes *extremes;    /* owned; n_stretches x n_bands */
-    double *flux;          /* owned; n_stretches: sum over the rows of the first band's */
-    double *shares;        /* owned; n_stretches x n_shares: sum of share times flux */
+    size_t *share_columns; /* owned; OTHERS: several together */
+    int *share_kinds;      /* owned; of each share */
+    size_t *slots;         /* owned; where a share goes when a panel has no room for all */
+    size_t n_others[N_KINDS], others_slot[N_KINDS]; /* shares that are drawn together, and where */
+    double *sums;                                   /* owned; n_shares: scratch */
+    extremes *extremes;                             /* owned; n_stretches x n_bands */
+    double *flux;            /* owned; n_stretches: sum over the rows of the first band's */
+    double *shares;          /* owned; n_stretches x n_shares: sum of share times flux */
+    const curve_plot *given; /* borrowed; of curve_plot_compare */
+    const char *note;        /* borrowed */
 };
 
 static bool begins(const char *string, const char *prefix)
 {
     return strncmp(string, prefix, strlen(prefix)) == 0;
-}
-
-/* Of a column of shares. */
-static int kind_of(const char *name)
-{
-    int kind = 0;
-    while (kind < N_KINDS - 1 && !begins(name, PREFIXES[kind]))
-        kind++;
-    return kind;
 }
 
 /* Finds the columns that are drawn: of a band, those of its magnitude and its flux ratio have the
@@ -74,7 +74,10 @@ static void find_columns(curve_plot *p, const glint_column *columns, size_t n)
                 p->band_columns[p->n_bands++] = c;
     for (int kind = 0; kind < N_KINDS; kind++)
         for (size_t c = 0; c < n; c++)
-            if (begins(columns[c].name, PREFIXES[kind])) p->share_columns[p->n_shares++] = c;
+            if (begins(columns[c].name, PREFIXES[kind])) {
+                p->share_kinds[p->n_shares] = kind;
+                p->share_columns[p->n_shares++] = c;
+            }
 }
 
 curve_plot *curve_plot_start(const glint_curve *curve)
@@ -92,12 +95,15 @@ curve_plot *curve_plot_start(const glint_curve *curve)
     p->n_stretches = (size_t)((length + p->stride - 1) / p->stride) + 1;
     p->band_columns = calloc(n + 1, sizeof *p->band_columns);
     p->share_columns = calloc(n + 1, sizeof *p->share_columns);
-    p->kept = calloc(n + 1, sizeof *p->kept);
-    if (p->band_columns && p->share_columns) find_columns(p, columns, n);
+    p->share_kinds = calloc(n + 1, sizeof *p->share_kinds);
+    p->slots = calloc(n + 1, sizeof *p->slots);
+    p->sums = calloc(n + 1, sizeof *p->sums);
+    if (p->band_columns && p->share_columns && p->share_kinds) find_columns(p, columns, n);
     p->extremes = calloc(p->n_stretches * (p->n_bands + 1), sizeof *p->extremes);
     p->flux = calloc(p->n_stretches, sizeof *p->flux);
     p->shares = calloc(p->n_stretches * (p->n_shares + 1), sizeof *p->shares);
-    if (p->band_columns && p->share_columns && p->kept && p->extremes && p->flux && p->shares)
+    if (p->band_columns && p->share_columns && p->share_kinds && p->slots && p->sums &&
+        p->extremes && p->flux && p->shares)
         return p;
     curve_plot_free(p);
     return NULL;
@@ -108,31 +114,25 @@ void curve_plot_free(curve_plot *p)
     if (!p) return;
     free(p->band_columns);
     free(p->share_columns);
-    free(p->kept);
+    free(p->share_kinds);
+    free(p->slots);
+    free(p->sums);
     free(p->extremes);
     free(p->flux);
     free(p->shares);
     free(p);
 }
 
-/* Days from 1 January 1970 to a date of the Gregorian calendar. Years are counted from March, so
- * that the day that some of them have more is the last; 146097 days make 400 years. */
-static int64_t days_of(int year, int month, int day)
+void curve_plot_compare(curve_plot *p, const curve_plot *given, const char *note)
 {
-    const int64_t y = month > 2 ? year : year - 1, m = (month + 9) % 12; /* March is 0 */
-    const int64_t from_march = 365 * y + y / 4 - y / 100 + y / 400 + (153 * m + 2) / 5 + day - 1;
-    return from_march - 719468; /* those before 1970 */
+    p->given = given;
+    p->note = note;
 }
 
 static spot spot_of(const curve_plot *p, const glint_row *row)
 {
     static const double DEG = 57.295779513082321; /* per rad */
-    const glint_utc *u = &row->utc;
-    const double phase_deg = row->phase_angle_rad * DEG;
-    if (!p->has_utc) return (spot){row->t_s, phase_deg};
-    const double day_s = 86400.0 * (double)days_of(u->year, u->month, u->day);
-    return (spot){day_s + 3600.0 * u->hour + 60.0 * u->minute + u->second + 1e-6 * u->microsecond,
-                  phase_deg};
+    return (spot){p->has_utc ? plot_utc_s(&row->utc) : row->t_s, row->phase_angle_rad * DEG};
 }
 
 static void add_magnitude(extremes *e, spot at, double mag)
@@ -242,11 +242,12 @@ static void write_extremes(const curve_plot *p, const extremes *e, text *t)
 
 /* The points of one band: a blank line where the curve is interrupted. Single ones go to a second
  * block. Returns false when there are none. */
-static bool write_band(const curve_plot *p, size_t band, text *t)
+static bool write_band(const curve_plot *p, size_t band, const char *lines, const char *single,
+                       text *t)
 {
     bool any = false, gap = false;
     text dots = {0};
-    text_printf(t, "$band%zu << end\n", band);
+    text_printf(t, "$%s%zu << end\n", lines, band);
     for (size_t at = 0; at < p->n_stretches; at++) {
         const extremes *e = &p->extremes[at * p->n_bands + band];
         gap = gap || !e->any;
@@ -257,7 +258,7 @@ static bool write_band(const curve_plot *p, size_t band, text *t)
         any = true;
         gap = false;
     }
-    text_printf(t, "end\n$dots%zu << end\n", band);
+    text_printf(t, "end\n$%s%zu << end\n", single, band);
     text_append(t, dots.data, dots.length);
     text_add(t, dots.length ? "end\n" : "NaN NaN\nend\n");
     t->failed = t->failed || dots.failed;
@@ -312,26 +313,14 @@ static void write_axis(const curve_plot *p, text *t)
 {
     double from, to;
     find_range(p, &from, &to);
-    const double room = from < to ? 0 : width_of_stretch(p), span = to - from;
-    text_printf(t, "first = %.6f\nlast = %.6f\nset xrange [first:last]\n", from - room, to + room);
-    if (!p->has_utc) {
-        text_printf(t, "bottom = '%s'\nmarks = '%%g'\n",
-                    is_over_phase(p) ? "phase angle (deg)" : "t_s (s)");
+    const double room = from < to ? 0 : width_of_stretch(p);
+    if (p->has_utc) {
+        plot_time_axis(from - room, to + room, t);
         return;
     }
-    const double MINUTE = 60, DAY = 86400; /* s */
-    const char *marks = span < 0.2 * MINUTE ? "%H:%M:%.1S"
-                        : span < 5 * MINUTE ? "%H:%M:%S"
-                        : span < DAY        ? "%H:%M"
-                        : span < 8 * DAY    ? "%H:%M\\n%d %b"
-                        : span < 600 * DAY  ? "%d %b"
-                                            : "%b %Y";
-    text_printf(t,
-                "set xdata time\nset timefmt '%%s'\nmarks = \"%s\"\n"
-                "day = '%%d %%b %%Y'\nbottom = 'UTC, ' . strftime(day, first)\n"
-                "if (strftime(day, last) ne strftime(day, first)) {\n"
-                "    bottom = bottom . ' to ' . strftime(day, last)\n}\n",
-                marks);
+    text_printf(t, "first = %.6f\nlast = %.6f\nset xrange [first:last]\n", from - room, to + room);
+    text_printf(t, "bottom = '%s'\nmarks = '%%g'\n",
+                is_over_phase(p) ? "phase angle (deg)" : "t_s (s)");
 }
 
 static const char *fact_of(const glint_curve *curve, const char *wanted)
@@ -354,10 +343,10 @@ static size_t longest_name(const curve_plot *p)
     const glint_column *columns = glint_curve_columns(p->curve, &n);
     for (size_t b = 0; b < p->n_bands && p->n_bands > 1; b++)
         longest = larger(longest, strlen(columns[p->band_columns[b]].name + strlen(MAGNITUDE)));
-    for (size_t s = 0; s < p->n_shares; s++) {
-        const char *name = columns[p->share_columns[s]].name;
-        longest = larger(longest, strlen(name + strlen(PREFIXES[kind_of(name)])));
-    }
+    for (size_t s = 0; s < p->n_shares; s++)
+        if (p->share_columns[s] != OTHERS)
+            longest = larger(longest, strlen(columns[p->share_columns[s]].name +
+                                             strlen(PREFIXES[p->share_kinds[s]])));
     return longest;
 }
 
@@ -373,21 +362,88 @@ static void write_setup(const curve_plot *p, text *t)
     write_axis(p, t);
     text_add(t, "set multiplot title ");
     plot_quote(t, fact_of(p->curve, "title"));
+    if (p->note) {
+        text_add(t, " . \"\\n\" . ");
+        plot_quote(t, p->note);
+    }
     text_add(t, " noenhanced\n");
 }
 
-/* Begins panel k of n, counted from the top, where a blank line's room parts them. The first has
- * FIRST times the height of the others; the last says what the axis is. */
-static void begin_panel(int k, int n, text *t)
+/* Panels: magnitudes, and one for each kind of shares that there are. */
+enum { MAGNITUDES = N_KINDS, N_PANELS };
+static const int PANELS[N_PANELS] = {MAGNITUDES, BY_MATERIAL, BY_COMPONENT, BY_SURFACE};
+
+static bool has_panel(const curve_plot *p, int panel)
 {
-    static const double TOP = 0.93, BOTTOM = 0.14, GAP = 0.045; /* of the picture's height */
-    static const double FIRST = 1.3;
-    const double height = (TOP - BOTTOM - (n - 1) * GAP) / (FIRST + n - 1);
-    const double top = k == 0 ? TOP : TOP - FIRST * height - GAP - (k - 1) * (height + GAP);
-    text_printf(t, "set tmargin at screen %.4f\nset bmargin at screen %.4f\n", top,
-                top - (k == 0 ? FIRST : 1) * height);
-    text_add(t, k == n - 1 ? "set format x marks\nset xlabel bottom noenhanced\n"
-                           : "set format x ''\n");
+    bool found = panel == MAGNITUDES;
+    for (size_t s = 0; s < p->n_shares && !found; s++)
+        found = p->share_kinds[s] == panel;
+    return found;
+}
+
+/* Where a panel begins and ends, in the picture's height from below: one below the other, where a
+ * blank line's room parts them. */
+static void place_panel(const curve_plot *p, int panel, double *top, double *bottom)
+{
+    static const double TOP = 0.93, BOTTOM = 0.14, GAP = 0.045;
+    static const double TITLE = 0.03; /* another line of the title */
+    static const double PARTS[N_PANELS] = {
+        [MAGNITUDES] = 1.3, [BY_MATERIAL] = 1, [BY_COMPONENT] = 1, [BY_SURFACE] = 1.7};
+    const double begin = p->note ? TOP - TITLE : TOP;
+    double free = begin - BOTTOM + GAP, parts = 0;
+    for (int k = 0; k < N_PANELS; k++) {
+        parts += has_panel(p, PANELS[k]) ? PARTS[PANELS[k]] : 0;
+        free -= has_panel(p, PANELS[k]) ? GAP : 0;
+    }
+    *bottom = begin + GAP;
+    for (int k = 0; k < N_PANELS; k++) {
+        if (!has_panel(p, PANELS[k])) continue;
+        *top = *bottom - GAP;
+        *bottom = *top - free * PARTS[PANELS[k]] / parts;
+        if (PANELS[k] == panel) return;
+    }
+}
+
+/* The last panel says what the axis is. */
+static void begin_panel(const curve_plot *p, int panel, text *t)
+{
+    double top, bottom;
+    bool is_last = true;
+    place_panel(p, panel, &top, &bottom);
+    for (int kind = panel == MAGNITUDES ? 0 : panel + 1; kind < N_KINDS; kind++)
+        is_last = is_last && !has_panel(p, kind);
+    text_printf(t, "set tmargin at screen %.4f\nset bmargin at screen %.4f\n", top, bottom);
+    text_add(t,
+             is_last ? "set format x marks\nset xlabel bottom noenhanced\n" : "set format x ''\n");
+}
+
+/* Names that a panel has room for beside it. */
+static size_t room_for_names(const curve_plot *p, int panel)
+{
+    static const double LINE = 0.0285; /* of the picture's height */
+    double top, bottom;
+    place_panel(p, panel, &top, &bottom);
+    const double lines = (top - bottom) / LINE;
+    return lines > 2 ? (size_t)lines : 2;
+}
+
+/* Marks at round magnitudes, with room for their numbers. */
+static void write_magnitude_marks(const curve_plot *p, text *t)
+{
+    static const double ROOM = 0.035; /* of a number, of the picture's height */
+    double bright = HUGE_VAL, faint = -HUGE_VAL, top, bottom;
+    for (const curve_plot *from = p; from; from = from->given)
+        for (size_t k = 0; k < from->n_stretches * from->n_bands; k++)
+            if (from->extremes[k].any) {
+                bright = fmin(bright, from->extremes[k].bright_mag);
+                faint = fmax(faint, from->extremes[k].faint_mag);
+            }
+    place_panel(p, MAGNITUDES, &top, &bottom);
+    if (bright + 1e-3 < faint)
+        text_printf(t, "set ytics %.6g\n",
+                    plot_round_step(1.1 * (faint - bright) * ROOM / (top - bottom)));
+    else
+        text_add(t, "set ytics autofreq\n");
 }
 
 static void write_magnitudes(const curve_plot *p, bool any, text *t)
@@ -397,23 +453,30 @@ static void write_magnitudes(const curve_plot *p, bool any, text *t)
     enum { N_COLOURS = sizeof COLOURS / sizeof *COLOURS };
     size_t n;
     const glint_column *columns = glint_curve_columns(p->curve, &n);
-    if (p->n_bands == 1)
+    if (p->n_bands == 1 && !p->given)
         text_printf(t, "unset key\nset ylabel 'magnitude %s' noenhanced\n",
                     columns[p->band_columns[0]].name + strlen(MAGNITUDE));
     else
-        text_add(t, "set key\nset ylabel 'magnitude'\n");
+        text_printf(t, "set key\nset ylabel 'magnitude%s%s' noenhanced\n",
+                    p->n_bands == 1 ? " " : "",
+                    p->n_bands == 1 ? columns[p->band_columns[0]].name + strlen(MAGNITUDE) : "");
     if (!any) {
         text_add(t, "unset key\nset yrange [1:0]\nset format y ''\n"
                     "set label 1 'no row has a magnitude' at graph 0.5,0.5 center\n"
                     "plot NaN\nunset label 1\nset format y '%h'\n");
         return;
     }
+    write_magnitude_marks(p, t);
     text_add(t, "set yrange [*:*] reverse\nset offsets 0,0,graph 0.05,graph 0.05\nplot ");
+    if (p->given)
+        text_add(t, "$given0 using 1:2 with lines lw 2 lc rgb '#a0a0a0' title 'as given', "
+                    "$given_dots0 using 1:2 with points pt 7 ps 0.5 lc rgb '#a0a0a0' notitle, ");
     for (size_t b = 0; b < p->n_bands; b++) {
         const char *colour = COLOURS[b % N_COLOURS];
         text_printf(t, "%s$band%zu using 1:2 with lines lw 2.5 lc rgb '%s' title ", b ? ", " : "",
                     b, colour);
-        plot_quote(t, columns[p->band_columns[b]].name + strlen(MAGNITUDE));
+        plot_quote(t, p->n_bands == 1 ? "changed"
+                                      : columns[p->band_columns[b]].name + strlen(MAGNITUDE));
         text_printf(t, ", $dots%zu using 1:2 with points pt 7 ps 0.5 lc rgb '%s' notitle", b,
                     colour);
     }
@@ -427,13 +490,21 @@ static void write_share_panel(const curve_plot *p, int kind, size_t first, size_
     enum { N_COLOURS = sizeof COLOURS / sizeof *COLOURS };
     size_t n_columns;
     const glint_column *columns = glint_curve_columns(p->curve, &n_columns);
-    text_printf(t, "set key\nset ylabel '%s%s%s' noenhanced\nset yrange [0:1] noreverse\nplot ",
-                SHARE_OF[kind], p->n_bands > 1 ? " in " : "",
-                p->n_bands > 1 ? columns[p->band_columns[0]].name + strlen(MAGNITUDE) : "");
+    const bool small = has_panel(p, BY_SURFACE);
+    text_printf(t,
+                "set key\nset ylabel '%s%s%s' noenhanced\nset yrange [0:1] noreverse\n"
+                "set ytics %s\nplot ",
+                small ? NAMES_OF[kind] : SHARE_OF[kind], p->n_bands > 1 ? " in " : "",
+                p->n_bands > 1 ? columns[p->band_columns[0]].name + strlen(MAGNITUDE) : "",
+                small ? "0.5" : "0.2");
     for (size_t s = 0; s < n; s++) {
         text_printf(t, "%s$shares%d using 1:%zu:%zu with filledcurves lc rgb '%s' title ",
-                    s ? ", " : "", kind, s + 2, s + 3, COLOURS[s % N_COLOURS]);
-        plot_quote(t, columns[p->share_columns[first + s]].name + strlen(PREFIXES[kind]));
+                    s ? ", " : "", kind, s + 2, s + 3,
+                    p->share_columns[first + s] == OTHERS ? "#cccccc" : COLOURS[s % N_COLOURS]);
+        if (p->share_columns[first + s] == OTHERS)
+            text_printf(t, "'%zu others'", p->n_others[kind]);
+        else
+            plot_quote(t, columns[p->share_columns[first + s]].name + strlen(PREFIXES[kind]));
     }
     text_char(t, '\n');
 }
@@ -447,47 +518,94 @@ static size_t first_of(const size_t n_of[N_KINDS], int kind)
     return first;
 }
 
-/* Surfaces are many, and most of them never shine: those have no place in the legend. */
-static void drop_dark_surfaces(curve_plot *p, const glint_column *columns)
+/* ------------------------------------------------------------ what has a name */
+
+/* Of how many of the n shares from `first` on a share is the smaller one. */
+static size_t rank_of(const curve_plot *p, size_t share, size_t first, size_t n)
 {
-    const size_t before = p->n_shares;
-    size_t kept = 0;
-    for (size_t s = 0; s < before; s++) {
-        bool lit = kind_of(columns[p->share_columns[s]].name) != BY_SURFACE;
-        for (size_t at = 0; at < p->n_stretches && !lit; at++)
-            lit = p->shares[at * before + s] > 0;
-        if (lit) p->kept[kept++] = s;
+    size_t rank = 0;
+    for (size_t s = first; s < first + n; s++)
+        rank += p->sums[s] > p->sums[share] || (p->sums[s] == p->sums[share] && s < share);
+    return rank;
+}
+
+/* Gives the n shares from `first` on, of one kind, slots from `next` on, in their order; returns
+ * the next one. Surfaces are many, and most of them never shine: those have no place in the legend.
+ * What it has no room for beyond that shares a slot, the last. */
+static size_t choose_kind(curve_plot *p, int kind, size_t first, size_t n, size_t next)
+{
+    size_t wanted = 0;
+    for (size_t s = first; s < first + n; s++)
+        wanted += kind != BY_SURFACE || p->sums[s] > 0;
+    const size_t room = room_for_names(p, kind), named = wanted > room ? room - 1 : wanted;
+    p->n_others[kind] = wanted - named;
+    p->others_slot[kind] =
+        p->n_others[kind] > 0 ? next + named : OTHERS; /* there is none: dropped */
+    for (size_t s = first; s < first + n; s++)
+        p->slots[s] = rank_of(p, s, first, n) < named ? next++ : p->others_slot[kind];
+    return p->n_others[kind] > 0 ? next + 1 : next;
+}
+
+/* Brings the shares into their slots. */
+static void move_shares(curve_plot *p, size_t n_slots)
+{
+    for (size_t at = 0; at < p->n_stretches; at++) {
+        memcpy(p->sums, p->shares + at * p->n_shares, p->n_shares * sizeof *p->sums);
+        double *to = p->shares + at * n_slots; /* never behind what is still to be read */
+        for (size_t slot = 0; slot < n_slots; slot++)
+            to[slot] = 0;
+        for (size_t s = 0; s < p->n_shares; s++)
+            if (p->slots[s] < n_slots) to[p->slots[s]] += p->sums[s];
     }
-    for (size_t s = 0; s < kept; s++)
-        p->share_columns[s] = p->share_columns[p->kept[s]];
-    for (size_t at = 0; at < p->n_stretches; at++)
-        for (size_t s = 0; s < kept; s++)
-            p->shares[at * kept + s] = p->shares[at * before + p->kept[s]];
-    p->n_shares = kept;
+    for (size_t s = 0; s < p->n_shares; s++) { /* no named share moves back */
+        const int kind = p->share_kinds[s];
+        if (p->slots[s] == p->others_slot[kind]) continue;
+        p->share_columns[p->slots[s]] = p->share_columns[s];
+        p->share_kinds[p->slots[s]] = kind;
+    }
+    for (int kind = 0; kind < N_KINDS; kind++)
+        if (p->n_others[kind] > 0) {
+            p->share_columns[p->others_slot[kind]] = OTHERS;
+            p->share_kinds[p->others_slot[kind]] = kind;
+        }
+    p->n_shares = n_slots;
+}
+
+static void choose_shares(curve_plot *p)
+{
+    size_t first = 0, next = 0;
+    for (size_t s = 0; s < p->n_shares; s++) {
+        p->sums[s] = 0;
+        for (size_t at = 0; at < p->n_stretches; at++)
+            p->sums[s] += p->shares[at * p->n_shares + s];
+    }
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        size_t n = 0;
+        while (first + n < p->n_shares && p->share_kinds[first + n] == kind)
+            n++;
+        if (n > 0) next = choose_kind(p, kind, first, n, next);
+        first += n;
+    }
+    move_shares(p, next);
 }
 
 void curve_plot_write(curve_plot *p, text *t)
 {
-    size_t n_columns, n_of[N_KINDS] = {0};
-    const glint_column *columns = glint_curve_columns(p->curve, &n_columns);
-    int panels = 1;
-    bool any = false;
-    drop_dark_surfaces(p, columns);
+    size_t n_of[N_KINDS] = {0};
+    bool any = p->given && write_band(p->given, 0, "given", "given_dots", t);
+    choose_shares(p);
     for (size_t s = 0; s < p->n_shares; s++)
-        n_of[kind_of(columns[p->share_columns[s]].name)]++;
+        n_of[p->share_kinds[s]]++;
     for (size_t b = 0; b < p->n_bands; b++)
-        any = write_band(p, b, t) || any;
+        any = write_band(p, b, "band", "dots", t) || any;
+    for (int kind = 0; kind < N_KINDS; kind++)
+        if (n_of[kind] > 0) write_shares(p, kind, first_of(n_of, kind), n_of[kind], t);
+    write_setup(p, t);
+    begin_panel(p, MAGNITUDES, t);
+    write_magnitudes(p, any, t);
     for (int kind = 0; kind < N_KINDS; kind++) {
         if (n_of[kind] == 0) continue;
-        panels++;
-        write_shares(p, kind, first_of(n_of, kind), n_of[kind], t);
-    }
-    write_setup(p, t);
-    begin_panel(0, panels, t);
-    write_magnitudes(p, any, t);
-    for (int kind = 0, panel = 1; kind < N_KINDS; kind++) {
-        if (n_of[kind] == 0) continue;
-        begin_panel(panel++, panels, t);
+        begin_panel(p, kind, t);
         write_share_panel(p, kind, first_of(n_of, kind), n_of[kind], t);
     }
     text_add(t, "unset multiplot\n");

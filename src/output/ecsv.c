@@ -50,17 +50,6 @@ void ecsv_fact(text *t, const char *key, const char *value)
     text_char(t, '\n');
 }
 
-void ecsv_run_fact(text *t, const char *key, const char *value, bool *in_list)
-{
-    const bool of_list = string_equal(key, "set");
-    if (of_list && !*in_list) ecsv_list(t, key);
-    *in_list = of_list;
-    if (of_list)
-        ecsv_item(t, value, strlen(value));
-    else
-        ecsv_fact(t, key, value);
-}
-
 void ecsv_list(text *t, const char *key)
 {
     text_printf(t, "# - %s:\n", key);

@@ -10,9 +10,6 @@
 void ecsv_begin(text *t, const glint_column *columns, size_t n);
 /* One fact, "key: value". Keys are unique and plain words. */
 void ecsv_fact(text *t, const char *key, const char *value);
-/* One of the facts of a run, given one after the other: those with the key "set" become one list,
- * for keys are unique. *in_list: false before the first. */
-void ecsv_run_fact(text *t, const char *key, const char *value, bool *in_list);
 /* A fact that is a list: its key, then its items, the n bytes at `item` each. */
 void ecsv_list(text *t, const char *key);
 void ecsv_item(text *t, const char *item, size_t n);

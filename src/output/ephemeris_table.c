@@ -1,6 +1,7 @@
 /* ephemeris_table.c: an ephemeris as CSV with an ECSV header, as JSON, as a table for people. */
 #include "base/text.h"
 #include "output/ecsv.h"
+#include "output/facts.h"
 #include "output/file.h"
 #include "output/json.h"
 
@@ -8,15 +9,17 @@
 
 /* ---------------------------------------------------------------------- CSV */
 
+static bool fact_of(const void *ephemeris, size_t k, const char **key, const char **value)
+{
+    return glint_ephemeris_fact(ephemeris, k, key, value);
+}
+
 static void csv_header(const glint_ephemeris *e, text *t)
 {
     size_t n;
-    const char *key, *value;
     const glint_column *columns = glint_ephemeris_columns(e, &n);
-    bool in_list = false;
     ecsv_begin(t, columns, n);
-    for (size_t k = 0; glint_ephemeris_fact(e, k, &key, &value); k++)
-        ecsv_run_fact(t, key, value, &in_list);
+    ecsv_facts(t, fact_of, e);
     ecsv_end(t, columns, n);
 }
 
@@ -132,14 +135,8 @@ static void json_row(const glint_ephemeris *e, const glint_ephemeris_row *row, j
 /* The facts; the list of rows is left open. */
 static void json_header(const glint_ephemeris *e, json *j)
 {
-    const char *key, *value;
     json_object(j, NULL);
-    for (size_t k = 0; glint_ephemeris_fact(e, k, &key, &value); k++)
-        if (!string_equal(key, "set")) json_string(j, key, value);
-    json_list(j, "set");
-    for (size_t k = 0; glint_ephemeris_fact(e, k, &key, &value); k++)
-        if (string_equal(key, "set")) json_string(j, NULL, value);
-    json_end(j, ']');
+    json_facts(j, fact_of, e);
     json_list(j, "rows");
 }
 

@@ -154,6 +154,8 @@ static void write_ranges(const fits_plot *p, text *t)
     const double most = 2.0; /* dex; what is farther off is not worth the room */
     residual = 1.05 * fmin(fmax(residual, 0.01), most);
     if (!(left < right)) left -= 1.0, right += 1.0;
+    const double room = 0.08 * (right - left); /* for half a number, beside that of the neighbour */
+    left -= room, right += room;
     text_printf(t, "low = %.6g\nhigh = %.6g\nmiss = %.6g\nset xrange [%.4f:%.4f]\n", 0.5 * low,
                 2.0 * high, residual, left, right);
     text_printf(t, "across = '%s'\n",

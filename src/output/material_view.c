@@ -197,6 +197,7 @@ static glint_status read_angles(const char *path, bool unit_given, view_points *
     int columns[4];
     glint_status status = csv_read(path, PLACE_NONE, &table, errors);
     if (status) return status;
+    csv_leave_out_cut_row(&table, errors);
     for (int k = 0; k < 4; k++) {
         columns[k] = csv_column(&table, NAMES[k]);
         if (columns[k] < 0) status = refuse_column(&table, NAMES[k], NAMES, 4, errors);

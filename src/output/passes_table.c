@@ -1,5 +1,6 @@
 /* passes_table.c: passes as a table for people, as CSV with an ECSV header, as JSON. */
 #include "output/ecsv.h"
+#include "output/facts.h"
 #include "output/file.h"
 #include "output/json.h"
 
@@ -246,11 +247,45 @@ static void add_event_row(text *t, const glint_passes *of, const glint_pass *pas
     text_char(t, '\n');
 }
 
-static void write_csv(const listed_pass *list, size_t n, text *t)
+/* The scenarios whose passes stand in one table. */
+typedef struct merged {
+    const glint_passes *const *passes;
+    size_t n;
+} merged;
+
+/* Fact k with that key, of all scenarios one after the other. */
+static bool fact_with_key(const merged *all, const char *wanted, size_t k, const char **value)
+{
+    const char *key;
+    for (size_t i = 0; i < all->n; i++)
+        for (size_t f = 0; glint_passes_fact(all->passes[i], f, &key, value); f++)
+            if (string_equal(key, wanted) && k-- == 0) return true;
+    return false;
+}
+
+/* All that is known of one scenario; of several, what they are and where they come from, and what
+ * holds for all. */
+static bool fact_of(const void *of, size_t k, const char **key, const char **value)
+{
+    static const char *const KEYS[] = {"scenario_hash", "title", "orbit", "observer", "observers"};
+    const merged *all = of;
+    if (all->n == 1) return glint_passes_fact(all->passes[0], k, key, value);
+    *key = k == 0 ? "glint_version" : "time_scale";
+    *value = k == 0 ? glint_version() : "utc is the reception at the observer";
+    if (k < 2) return true;
+    k -= 2;
+    for (size_t i = 0; i < sizeof KEYS / sizeof *KEYS; i++)
+        for (size_t n = 0; fact_with_key(all, KEYS[i], n, value); n++) {
+            *key = KEYS[i];
+            if (k-- == 0) return true;
+        }
+    return false;
+}
+
+static void write_csv(const listed_pass *list, size_t n, const merged *all, text *t)
 {
     ecsv_begin(t, COLUMNS, N_COLUMNS);
-    ecsv_fact(t, "glint_version", glint_version());
-    ecsv_fact(t, "time_scale", "utc is the reception at the observer");
+    ecsv_facts(t, fact_of, all);
     ecsv_end(t, COLUMNS, N_COLUMNS);
     for (size_t k = 0; k < n; k++)
         for (size_t i = 0; i < list[k].pass->n_events; i++)
@@ -299,11 +334,11 @@ static void add_json_event(json *j, const glint_passes *of, const glint_pass_eve
     json_end(j, '}');
 }
 
-static void write_json(const listed_pass *list, size_t n, text *t)
+static void write_json(const listed_pass *list, size_t n, const merged *all, text *t)
 {
     json j = {.out = t};
     json_object(&j, NULL);
-    json_string(&j, "glint_version", glint_version());
+    json_facts(&j, fact_of, all);
     json_list(&j, "passes");
     for (size_t k = 0; k < n; k++) {
         const glint_pass *p = list[k].pass;
@@ -331,6 +366,7 @@ glint_status glint_passes_write(const glint_passes *const *passes, size_t n, gli
     size_t n_list;
     for (size_t k = 0; path && k < n; k++)
         if (glint_passes_reads(passes[k], path)) return out_file_is_input(path, error);
+    const merged all = {passes, n};
     listed_pass *list = merge(passes, n, &n_list);
     if (!list) return error_no_memory(error);
     text t = {0};
@@ -339,10 +375,10 @@ glint_status glint_passes_write(const glint_passes *const *passes, size_t n, gli
         write_people(list, n_list, &t);
         break;
     case GLINT_FORMAT_CSV:
-        write_csv(list, n_list, &t);
+        write_csv(list, n_list, &all, &t);
         break;
     case GLINT_FORMAT_JSON:
-        write_json(list, n_list, &t);
+        write_json(list, n_list, &all, &t);
         break;
     }
     free(list);

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -141,6 +142,47 @@ void plot_quote(text *script, const char *string)
             text_append(script, string + i, length);
     }
     text_char(script, '\'');
+}
+
+/* ---------------------------------------------------------------------- time */
+
+/* Days from 1 January 1970 to a date of the Gregorian calendar. Years are counted from March, so
+ * that the day that some of them have more is the last; 146097 days make 400 years. */
+static int64_t days_of(int year, int month, int day)
+{
+    const int64_t y = month > 2 ? year : year - 1, m = (month + 9) % 12; /* March is 0 */
+    const int64_t from_march = 365 * y + y / 4 - y / 100 + y / 400 + (153 * m + 2) / 5 + day - 1;
+    return from_march - 719468; /* those before 1970 */
+}
+
+double plot_utc_s(const glint_utc *u)
+{
+    const double day_s = 86400.0 * (double)days_of(u->year, u->month, u->day);
+    return day_s + 3600.0 * u->hour + 60.0 * u->minute + u->second + 1e-6 * u->microsecond;
+}
+
+double plot_round_step(double least)
+{
+    const double ten = pow(10, floor(log10(least))), part = least / ten; /* 1 to 10 */
+    return ten * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
+}
+
+void plot_time_axis(double from_s, double to_s, text *script)
+{
+    const double MINUTE = 60, DAY = 86400, span = to_s - from_s; /* s */
+    const char *marks = span < 0.2 * MINUTE ? "%H:%M:%.1S"
+                        : span < 5 * MINUTE ? "%H:%M:%S"
+                        : span < DAY        ? "%H:%M"
+                        : span < 8 * DAY    ? "%H:%M\\n%d %b"
+                        : span < 600 * DAY  ? "%d %b"
+                                            : "%b %Y";
+    text_printf(script,
+                "first = %.6f\nlast = %.6f\nset xrange [first:last]\n"
+                "set xdata time\nset timefmt '%%s'\nmarks = \"%s\"\n"
+                "day = '%%d %%b %%Y'\nbottom = 'UTC, ' . strftime(day, first)\n"
+                "if (strftime(day, last) ne strftime(day, first)) {\n"
+                "    bottom = bottom . ' to ' . strftime(day, last)\n}\n",
+                from_s, to_s, marks);
 }
 
 /* --------------------------------------------------------- talking to gnuplot */

@@ -22,6 +22,16 @@ glint_status plot_finish(plot *p, const char *script, size_t n, glint_error *err
 /* Leaves nothing behind. NULL is fine. */
 void plot_abandon(plot *p);
 
+/* Seconds of UTC since 1970, without leap seconds: what the axis below counts. */
+double plot_utc_s(const glint_utc *utc);
+/* Appends what makes the horizontal axis one of UTC, from from_s to to_s of plot_utc_s; `marks` is
+ * then what its marks show (set format x marks), and `bottom` the text below it, with the date. */
+void plot_time_axis(double from_s, double to_s, text *script);
+
+/* The smallest of 1, 2 and 5 times a power of ten that is not below `least` > 0: a step of marks.
+ */
+double plot_round_step(double least);
+
 /* Appends a text to a script as a string (an expression that begins with a quote) that gnuplot
  * takes as it is: nothing in it is substituted, it stays on one line, and bytes that are no UTF-8
  * become '?'. Whether '_' and '^' set letters lower or higher is a matter of the command that takes

@@ -2,6 +2,7 @@
  */
 #include "output/curve_plot.h"
 #include "output/ecsv.h"
+#include "output/facts.h"
 #include "output/json.h"
 #include "output/plot.h"
 
@@ -86,11 +87,28 @@ static void add_moment(text *t, glint_shares_total whole)
 
 /* --------------------------------------------------------------- for people */
 
+/* "bus/mli=white-paint, without wing-north" */
+static void list_changes(const glint_shares *shares, text *t)
+{
+    const char *key, *value;
+    bool any = false;
+    for (size_t k = 0; glint_shares_fact(shares, k, &key, &value); k++) {
+        const bool away = string_equal(key, "without");
+        if (!away && !string_equal(key, "swap")) continue;
+        text_printf(t, "%s%s%s", any ? ", " : "", away ? "without " : "", value);
+        any = true;
+    }
+}
+
 static void people_whole(const glint_shares *shares, bool changed, text *t)
 {
     glint_shares_total whole;
     if (!glint_shares_whole(shares, changed, &whole)) return;
-    text_add(t, changed ? "changed: " : "");
+    if (changed) {
+        text_add(t, "changed (");
+        list_changes(shares, t);
+        text_add(t, "): ");
+    }
     text_printf(t, "light in %lld of %lld rows", (long long)whole.bright_rows,
                 (long long)whole.rows);
     if (whole.bright_rows > 0) {
@@ -303,13 +321,18 @@ static void csv_row(const share_pair *pair, int kind, bool with_changes, text *t
     text_char(t, '\n');
 }
 
+static bool fact_of(const void *shares, size_t k, const char **key, const char **value)
+{
+    return glint_shares_fact(shares, k, key, value);
+}
+
 static void write_csv(const glint_shares *shares, const pair_list lists[N_KINDS], text *t)
 {
     glint_shares_change d;
     const bool with_changes = glint_shares_difference(shares, &d);
     const size_t n_columns = with_changes ? N_COLUMNS : N_PLAIN_COLUMNS;
     ecsv_begin(t, COLUMNS, n_columns);
-    ecsv_fact(t, "glint_version", glint_version());
+    ecsv_facts(t, fact_of, shares);
     csv_whole(shares, false, t);
     csv_whole(shares, true, t);
     csv_difference(shares, t);
@@ -392,7 +415,7 @@ static void write_json(const glint_shares *shares, const pair_list lists[N_KINDS
     glint_shares_whole(shares, false, &whole);
     json j = {.out = t};
     json_object(&j, NULL);
-    json_string(&j, "glint_version", glint_version());
+    json_facts(&j, fact_of, shares);
     json_string(&j, "band", whole.band);
     json_whole(shares, false, &j);
     json_whole(shares, true, &j);
@@ -429,45 +452,61 @@ glint_status glint_shares_write(const glint_shares *shares, glint_format format,
 
 /* ------------------------------------------------------------------ picture */
 
-static glint_status gather(glint_curve *curve, curve_plot *picture, glint_error *error)
+/* Runs a scenario into a picture. *curve must outlive it, and is the caller's in any case. */
+static glint_status draw_curve(const glint_scenario *s, int threads, glint_curve **curve,
+                               curve_plot **picture, glint_error *error)
 {
+    glint_errors *errors = glint_errors_new();
+    glint_status status = glint_curve_open(s, threads, curve, errors);
+    const glint_error *first = glint_errors_get(errors, 0);
+    if (status && error && first) *error = *first;
+    glint_errors_free(errors);
+    if (status) return status;
+    if (glint_curve_observers(*curve) > 1)
+        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                         "a picture shows the curve of one observer, and there are %zu; expected a "
+                         "scenario of one, or no picture",
+                         glint_curve_observers(*curve));
+    *picture = curve_plot_start(*curve);
+    if (!*picture) return error_no_memory(error);
     for (;;) {
         const glint_row *rows;
         size_t n;
-        const glint_status status = glint_curve_next(curve, &rows, &n, error);
+        status = glint_curve_next(*curve, &rows, &n, error);
         if (status || n == 0) return status;
-        curve_plot_add(picture, rows, n);
+        curve_plot_add(*picture, rows, n);
     }
 }
 
 glint_status glint_shares_plot(const glint_shares *shares, int threads, const char *path,
                                glint_error *error)
 {
+    enum { GIVEN, CHANGED };
     plot *file;
-    glint_curve *curve = NULL;
-    curve_plot *picture = NULL;
-    text script = {0};
-    glint_errors *errors = glint_errors_new();
+    glint_curve *curves[2] = {NULL, NULL};
+    curve_plot *pictures[2] = {NULL, NULL};
+    text script = {0}, note = {0};
+    const bool has_changes = glint_shares_scenario(shares, true) != NULL;
     glint_status status = plot_open(path, &file, error);
-    if (!status && glint_curve_open(glint_shares_scenario(shares), threads, &curve, errors)) {
-        const glint_error *first = glint_errors_get(errors, 0);
-        if (error && first) *error = *first;
-        status = first ? first->status : error_no_memory(error);
-    }
-    if (!status) picture = curve_plot_start(curve);
-    if (!status && !picture) status = error_no_memory(error);
-    if (!status) status = gather(curve, picture, error);
+    for (int k = GIVEN; k <= has_changes && !status; k++)
+        status = draw_curve(glint_shares_scenario(shares, k == CHANGED), threads, &curves[k],
+                            &pictures[k], error);
+    list_changes(shares, &note);
+    if (!status && has_changes)
+        curve_plot_compare(pictures[CHANGED], pictures[GIVEN], note.data ? note.data : "");
     if (!status) {
-        curve_plot_write(picture, &script);
-        if (script.failed) status = error_no_memory(error);
+        curve_plot_write(pictures[has_changes], &script);
+        if (script.failed || note.failed) status = error_no_memory(error);
     }
     if (status)
         plot_abandon(file);
     else
         status = plot_finish(file, script.data, script.length, error);
     text_free(&script);
-    curve_plot_free(picture);
-    glint_curve_close(curve);
-    glint_errors_free(errors);
+    text_free(&note);
+    for (int k = GIVEN; k <= CHANGED; k++) {
+        curve_plot_free(pictures[k]);
+        glint_curve_close(curves[k]);
+    }
     return status;
 }

@@ -2,6 +2,7 @@
 #include "base/text.h"
 #include "output/curve_plot.h"
 #include "output/ecsv.h"
+#include "output/facts.h"
 #include "output/file.h"
 #include "output/plot.h"
 #include "output/summary.h"
@@ -12,13 +13,9 @@
 /* Rows that one thread formats at a time. */
 enum { CHUNK = 256 };
 
-/* What is known of the run. */
-static void write_facts(const glint_curve *curve, text *t)
+static bool fact_of(const void *curve, size_t k, const char **key, const char **value)
 {
-    const char *key, *value;
-    bool in_list = false;
-    for (size_t k = 0; glint_curve_fact(curve, k, &key, &value); k++)
-        ecsv_run_fact(t, key, value, &in_list);
+    return glint_curve_fact(curve, k, key, value);
 }
 
 static void write_header(const glint_curve *curve, text *t)
@@ -26,7 +23,7 @@ static void write_header(const glint_curve *curve, text *t)
     size_t n;
     const glint_column *columns = glint_curve_columns(curve, &n);
     ecsv_begin(t, columns, n);
-    write_facts(curve, t);
+    ecsv_facts(t, fact_of, curve);
     ecsv_list(t, "scenario");
     for (const char *line = glint_curve_scenario(curve); *line;) {
         const size_t length = strcspn(line, "\n");

@@ -188,13 +188,21 @@ typedef struct swap {
     int component, from, to;
 } swap;
 
+/* Says which one was meant, or which ones there are. */
 static void refuse(reading *rd, const char *option, const char *given, const char *what,
-                   const char *name, const char *near)
+                   const char *wanted, const char *const *names, size_t n)
 {
-    reading_note(rd,
-                 errors_add(rd->errors, GLINT_ARGUMENT, PLACE_NONE,
-                            "--%s %.130s: there is no %s '%.64s'%s%s%s", option, given, what, name,
-                            near ? "; did you mean '" : "", near ? near : "", near ? "'?" : ""));
+    enum { MOST_NAMES = 12 };
+    const char *near = nearest_name(wanted, names, n);
+    text hint = {0};
+    if (near) text_printf(&hint, "; did you mean '%s'?", near);
+    for (size_t k = 0; k < n && k < MOST_NAMES && !near; k++)
+        text_printf(&hint, "%s%.64s", k ? ", " : "; there are: ", names[k]);
+    if (!near && n > MOST_NAMES) text_add(&hint, ", ...");
+    reading_note(rd, errors_add(rd->errors, GLINT_ARGUMENT, PLACE_NONE,
+                                "--%s %.130s: there is no %s '%.64s'%s", option, given, what,
+                                wanted, hint.data ? hint.data : ""));
+    text_free(&hint);
 }
 
 /* The number of the component or material called by the n bytes at `name`; an error and -1 without
@@ -214,8 +222,8 @@ static int number_of(reading *rd, bool of_components, const char *name, size_t n
     if (!names || !wanted)
         reading_no_memory(rd);
     else if (found < 0)
-        refuse(rd, option, given, of_components ? "component" : "material", wanted,
-               nearest_name(wanted, names, (size_t)count));
+        refuse(rd, option, given, of_components ? "component" : "material", wanted, names,
+               (size_t)count);
     free(names);
     free(wanted);
     return found;

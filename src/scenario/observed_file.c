@@ -72,12 +72,23 @@ static glint_status read_time(int kind, const char *word, place where, double tt
     return status ? errors_take(errors, &error, where) : GLINT_OK;
 }
 
+/* True, and counted, when a row's filter is not the one that is asked for. */
+static bool is_other_filter(const observed_wanted *wanted, const char *filter, observed_track *out)
+{
+    if (!wanted->filter || same_word(filter, wanted->filter)) return false;
+    if (out->other_filter++ == 0) snprintf(out->a_filter, sizeof out->a_filter, "%s", filter);
+    return true;
+}
+
 /* Keeps a row, or counts why not. `out->rows` has room. */
 static void keep(const observed_wanted *wanted, const double tt_jd[2], observed_row row,
                  observed_track *out)
 {
     static const double SLACK_S = 1e-6; /* dates come out to 1e-11 s */
     row.t_s = jd_difference_s(tt_jd, wanted->clock->tt_jd);
+    const bool is_first = out->n == 0 && out->outside_time == 0;
+    out->from_s = is_first ? row.t_s : fmin(out->from_s, row.t_s);
+    out->to_s = is_first ? row.t_s : fmax(out->to_s, row.t_s);
     if (row.t_s < -SLACK_S || row.t_s > wanted->span_s + SLACK_S) {
         out->outside_time++;
         return;
@@ -94,7 +105,7 @@ static glint_status find_column(const observed_wanted *wanted, const csv_table *
 {
     const char *asked = wanted->columns[which];
     *column = csv_column(csv, asked ? asked : observed_column_names[which]);
-    if (*column >= 0 || !asked) return GLINT_OK;
+    if (*column >= 0 || !asked || wanted->is_template) return GLINT_OK;
     const char **names = calloc((size_t)csv->n_columns + 1, sizeof *names);
     for (int k = 0; names && k < csv->n_columns; k++)
         names[k] = csv->cells[k].text;
@@ -104,6 +115,22 @@ static glint_status find_column(const observed_wanted *wanted, const csv_table *
                near ? "'?" : "");
     free(names);
     return GLINT_INPUT;
+}
+
+/* The columns of a template that a comparison cannot be without. */
+static glint_status check_template(const observed_wanted *wanted, place header,
+                                   const int column[OBSERVED_COLUMNS], glint_errors *errors)
+{
+    const int needed[] = {OBSERVED_UTC, OBSERVED_MAGNITUDE, OBSERVED_FILTER};
+    const int n = wanted->filter ? 3 : 2; /* the filter where rows are chosen by it */
+    glint_status status = GLINT_OK;
+    for (int k = 0; k < n; k++)
+        if (column[needed[k]] < 0)
+            status = errors_add(errors, GLINT_INPUT, header,
+                                "the file has no column '%s'; expected the columns of SCORE's "
+                                "template, or another 'format' in [observed]",
+                                wanted->columns[needed[k]]);
+    return status;
 }
 
 static glint_status find_columns(const observed_wanted *wanted, const csv_table *csv,
@@ -122,8 +149,10 @@ static glint_status find_columns(const observed_wanted *wanted, const csv_table 
         n_times++;
         *time = k;
     }
+    if (status) return status;
     const place header = csv_place(csv, &csv->cells[0]);
-    if (!status && n_times != 1)
+    if (wanted->is_template) return check_template(wanted, header, column, errors);
+    if (n_times != 1)
         status = errors_add(errors, GLINT_INPUT, header,
                             "the file has %s of the columns utc, jd and mjd; expected one of them, "
                             "or columns = { utc = \"NAME\", ... } in [observed]",
@@ -155,10 +184,8 @@ static glint_status read_csv_row(const observed_wanted *wanted, const csv_table 
                                  glint_errors *errors)
 {
     if (wanted->filter &&
-        !same_word(csv_at(csv, row, column[OBSERVED_FILTER])->text, wanted->filter)) {
-        out->other_filter++;
+        is_other_filter(wanted, csv_at(csv, row, column[OBSERVED_FILTER])->text, out))
         return GLINT_OK;
-    }
     const csv_cell *when = csv_at(csv, row, column[time]);
     const csv_cell *magnitude = csv_at(csv, row, column[OBSERVED_MAGNITUDE]);
     observed_row o = {.line = when->line, .phase = -1};
@@ -175,7 +202,7 @@ static glint_status read_csv_row(const observed_wanted *wanted, const csv_table 
         status = GLINT_INPUT;
     const csv_cell *sigma =
         column[OBSERVED_SIGMA] < 0 ? NULL : csv_at(csv, row, column[OBSERVED_SIGMA]);
-    if (!status && sigma && sigma->text[0] && o.sigma == 0 && !wanted->zero_sigma_is_none)
+    if (!status && sigma && sigma->text[0] && o.sigma == 0 && !wanted->is_template)
         status = errors_add(errors, GLINT_INPUT, csv_place(csv, sigma),
                             "the standard deviation is 0; expected more, or an empty cell");
     if (status) return status;
@@ -277,9 +304,9 @@ static glint_status read_mmt_row(const observed_wanted *wanted, const mmt_line *
     if (line->n != MMT_WORDS && line->n != MMT_WORDS - 1)
         return errors_add(
             errors, GLINT_INPUT, (place){wanted->path, line->line, 1},
-            "the line has %d words; expected nine or ten: Date Time StdMag Mag Filter "
+            "the line has %d word%s; expected nine or ten: Date Time StdMag Mag Filter "
             "Penumbra Distance Phase Channel and perhaps Track",
-            line->n);
+            line->n, line->n == 1 ? "" : "s");
     char when[64];
     double tt_jd[2], km, deg, magnitude;
     snprintf(when, sizeof when, "%.30sT%.30s", line->words[MMT_DATE], line->words[MMT_TIME]);
@@ -300,10 +327,7 @@ static glint_status read_mmt_row(const observed_wanted *wanted, const mmt_line *
     if (status) return status;
     const observed_row row = {
         .line = line->line, .magnitude = magnitude, .range_m = km * 1e3, .phase = deg * DEG};
-    if (wanted->filter && !same_word(line->words[MMT_FILTER], wanted->filter))
-        out->other_filter++;
-    else
-        keep(wanted, tt_jd, row, out);
+    if (!is_other_filter(wanted, line->words[MMT_FILTER], out)) keep(wanted, tt_jd, row, out);
     return GLINT_OK;
 }
 

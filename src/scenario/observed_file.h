@@ -32,7 +32,8 @@ typedef struct observed_wanted {
     place asked_from;
     const char *columns[OBSERVED_COLUMNS]; /* of CSV */
     place column_places[OBSERVED_COLUMNS]; /* of what says so */
-    bool zero_sigma_is_none;
+    bool is_template;   /* the columns are those of SCORE's template: not all need be there, and a
+                           sigma of 0 says nothing */
     const char *filter; /* rows of another one are left out; NULL: of none */
     bool standard;      /* of MMT: the column StdMag instead of Mag */
     const run_clock *clock;

@@ -85,7 +85,10 @@ static void read_expected_table(reading *rd, const toml_node *table)
     t->where = table->where;
     if (file) {
         char *path = reading_path(rd, file);
-        if (path) reading_note(rd, csv_read(path, file->where, &t->csv, rd->errors));
+        const glint_status status =
+            path ? csv_read(path, file->where, &t->csv, rd->errors) : GLINT_INTERNAL;
+        if (!status) csv_leave_out_cut_row(&t->csv, rd->errors);
+        reading_note(rd, status);
         free(path);
     }
     const toml_node *a = toml_child(table, "tolerance"), *b = toml_child(table, "relative");

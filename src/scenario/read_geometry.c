@@ -80,6 +80,7 @@ static void read_table(reading *rd, reader *r, double range_km)
     free(path);
     reading_note(rd, status);
     if (status) return;
+    csv_leave_out_cut_row(&csv, rd->errors);
     int column[8];
     bool complete = true;
     for (int i = 0; i < 8; i++) {

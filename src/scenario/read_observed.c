@@ -17,6 +17,10 @@ static const char *const SCORE_COLUMNS[OBSERVED_COLUMNS] = {
     [OBSERVED_RANGE] = "range_to_satellite_km",
     [OBSERVED_FILTER] = "observing_filter"};
 
+const char *const observed_kind_names[3] = {[OBSERVED_APPARENT] = "apparent",
+                                            [OBSERVED_AT_1000_KM] = "at-1000-km",
+                                            [OBSERVED_AT_1000_KM_90_DEG] = "at-1000-km-90-deg"};
+
 void observed_free(observed_track *o)
 {
     free(o->path);
@@ -77,6 +81,24 @@ static void read_observer_name(reading *rd, reader *r, observed_track *o)
         reader_fail(r, reader_place(r, "observer"), "no observer is named '%.60s'", name);
 }
 
+/* Says why no observation is left. */
+static void warn_of_none(const reading *rd, place where, const observed_track *o)
+{
+    text why = {0};
+    if (o->outside_time > 0)
+        text_printf(&why, "; %lld lie outside of [time], from %s to %s UTC",
+                    (long long)o->outside_time, reading_moment(rd->s, o->from_s).utc,
+                    reading_moment(rd->s, o->to_s).utc);
+    if (o->other_filter > 0)
+        text_printf(&why, "; %lld have another filter, as '%s'", (long long)o->other_filter,
+                    o->a_filter);
+    if (o->without_magnitude > 0)
+        text_printf(&why, "; %lld have no magnitude", (long long)o->without_magnitude);
+    errors_warn(rd->errors, where, "none of the observations can be compared%s",
+                why.data ? why.data : "");
+    text_free(&why);
+}
+
 static void read_file(reading *rd, reader *r, int format, observed_wanted *wanted,
                       observed_track *o)
 {
@@ -91,12 +113,13 @@ static void read_file(reading *rd, reader *r, int format, observed_wanted *wante
     if (!status && o->n + (size_t)(o->other_filter + o->without_magnitude + o->outside_time) == 0)
         status = errors_add(rd->errors, GLINT_INPUT, (place){o->path, 0, 0},
                             "the file has no observation; expected at least one");
+    else if (!status && o->n == 0)
+        warn_of_none(rd, file->where, o);
     reading_note(rd, status);
 }
 
 void read_observed(reading *rd, reader *root)
 {
-    static const char *const KINDS[] = {"apparent", "at-1000-km", "at-1000-km-90-deg"};
     glint_scenario *s = rd->s;
     const toml_node *table = reader_table(root, "observed", false);
     if (!table) return;
@@ -109,7 +132,7 @@ void read_observed(reading *rd, reader *root)
         reader_fail(&r, table->where,
                     "[observed] stands beside [geometry], which has no time; expected one of them");
     reader_choice(&r, "format", FORMATS, N_FORMATS, FORMAT_CSV, &format);
-    reader_choice(&r, "magnitude", KINDS, 3, OBSERVED_APPARENT, &kind);
+    reader_choice(&r, "magnitude", observed_kind_names, 3, OBSERVED_APPARENT, &kind);
     o->format = FORMATS[format];
     o->kind = (observed_kind)kind;
     read_observer_name(rd, &r, o);
@@ -117,7 +140,7 @@ void read_observed(reading *rd, reader *root)
     reader_boolean(&r, "fit_zero_point", false, &o->fit_zero_point);
     reader_string(&r, "filter", false, &wanted.filter);
     read_columns(rd, &r, format, &wanted);
-    wanted.zero_sigma_is_none = format == FORMAT_SCORE;
+    wanted.is_template = format == FORMAT_SCORE;
     wanted.standard = kind == OBSERVED_AT_1000_KM_90_DEG;
     if (format == FORMAT_MMT && kind == OBSERVED_AT_1000_KM)
         reader_fail(&r, reader_place(&r, "magnitude"),

@@ -201,20 +201,6 @@ static void warn_of_age(reading *rd, place where, const scenario_orbit *o)
 
 /* ------------------------------------------------------- the span of a table */
 
-/* A moment of the run (TT s from the start) as UTC, for messages. */
-typedef struct moment_text {
-    char utc[UTC_TEXT_SIZE + 1];
-} moment_text;
-
-static moment_text moment_of(const glint_scenario *s, double t_s)
-{
-    moment_text out = {""};
-    double tt_jd[2];
-    run_clock_tt(&s->clock, t_s, tt_jd);
-    tt_write_utc(tt_jd, out.utc);
-    return out;
-}
-
 /* How much earlier than its reception light may have left the satellite, s: from where it is at the
  * table's beginning to the farther side of the Earth. */
 static double longest_light_time_s(const orbit_table *table)
@@ -255,14 +241,14 @@ static void check_span(reading *rd, place where, const scenario_orbit *o)
         status = errors_add(rd->errors, GLINT_INPUT, where,
                             "the table of positions goes from %s to %s UTC, and the run from %s to "
                             "%s UTC; expected a run inside the table",
-                            moment_of(s, from_s).utc, moment_of(s, to_s).utc, moment_of(s, 0).utc,
-                            moment_of(s, end_s).utc);
+                            reading_moment(s, from_s).utc, reading_moment(s, to_s).utc,
+                            reading_moment(s, 0).utc, reading_moment(s, end_s).utc);
     else if (seen && from_s > -light_s)
         status = errors_add(rd->errors, GLINT_INPUT, where,
                             "the table of positions begins at %s UTC, %.3g s before the run; light "
                             "time asks for up to %.3g s: begin the run that much later than the "
                             "table, or set light_time = false",
-                            moment_of(s, from_s).utc, fmax(-from_s, 0), light_s);
+                            reading_moment(s, from_s).utc, fmax(-from_s, 0), light_s);
     for (size_t k = 1; k < table->n && !status; k++) {
         const double gap_s[2] = {reference_s + table->segments[k - 1].to_s,
                                  reference_s + table->segments[k].from_s};
@@ -270,7 +256,7 @@ static void check_span(reading *rd, place where, const scenario_orbit *o)
             status = errors_add(rd->errors, GLINT_INPUT, where,
                                 "the table of positions has a gap from %s to %s UTC, inside the "
                                 "run; expected a run between gaps",
-                                moment_of(s, gap_s[0]).utc, moment_of(s, gap_s[1]).utc);
+                                reading_moment(s, gap_s[0]).utc, reading_moment(s, gap_s[1]).utc);
     }
     reading_note(rd, status);
     if (!status) warn_of_wide_steps(rd, where, table, reference_s);
@@ -330,6 +316,30 @@ static void read_source(reading *rd, reader *r, scenario_orbit *out)
     }
 }
 
+/* Keys that choose within a file stand beside the file. */
+static void refuse_lost_choices(reader *r)
+{
+    static const struct {
+        const char *key, *files[2];
+    } CHOICES[] = {{"tle_name", {"tle", "omm"}},
+                   {"tle_designator", {"tle", "omm"}},
+                   {"tle_number", {"tle", "omm"}},
+                   {"oem_object", {"oem", NULL}},
+                   {"sp3_satellite", {"sp3", NULL}}};
+    for (size_t k = 0; k < sizeof CHOICES / sizeof *CHOICES; k++) {
+        const char *const *files = CHOICES[k].files;
+        const bool has_file =
+            toml_child(r->table, files[0]) || (files[1] && toml_child(r->table, files[1]));
+        const toml_node *choice = reader_find(r, CHOICES[k].key);
+        if (!choice || has_file) continue;
+        reader_fail(r, choice->key_where,
+                    "'%s' chooses from the file of '%s'%s%s%s, which is not given here; expected "
+                    "it there, or not at all",
+                    CHOICES[k].key, files[0], files[1] ? " or '" : "", files[1] ? files[1] : "",
+                    files[1] ? "'" : "");
+    }
+}
+
 void read_orbit(reading *rd, const toml_node *table, const char *name, scenario_orbit *out)
 {
     static const char *const SOURCES[] = {"tle", "tle_lines", "omm",    "oem",
@@ -345,6 +355,7 @@ void read_orbit(reading *rd, const toml_node *table, const char *name, scenario_
             "circular",
             name, given ? "several sources" : "no source");
     if (given == 1) read_source(rd, &r, out);
+    if (given > 0) refuse_lost_choices(&r);
     reading_done(rd, &r);
     if (r.status == GLINT_OK && rd->s->n_steps > 0) make_orbit(rd, table->where, out);
 }

@@ -49,6 +49,15 @@ char *reading_path(reading *rd, const toml_node *node)
     return path;
 }
 
+moment_text reading_moment(const glint_scenario *s, double t_s)
+{
+    moment_text out = {""};
+    double tt_jd[2];
+    run_clock_tt(&s->clock, t_s, tt_jd);
+    tt_write_utc(tt_jd, out.utc);
+    return out;
+}
+
 /* True when a "key=value" names a key of a model: materials, materials_from, component. */
 static bool belongs_to_model(const char *assignment)
 {

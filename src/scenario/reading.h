@@ -36,6 +36,12 @@ bool reading_override_waits(const toml_document *document, const char *assignmen
  * owned by the caller; NULL on error. */
 char *reading_path(reading *rd, const toml_node *node);
 
+/* A moment (TT s from the scenario's start) as UTC, for messages. */
+typedef struct moment_text {
+    char utc[UTC_TEXT_SIZE + 1];
+} moment_text;
+moment_text reading_moment(const glint_scenario *s, double t_s);
+
 /* A word of the vocabulary, or { ra_deg, dec_deg }, or { latitude_deg, longitude_deg, height_m }.
  */
 bool read_direction(reader *r, const char *key, bool required, direction *out);

@@ -208,6 +208,7 @@ typedef enum observed_kind {
     OBSERVED_AT_1000_KM_90_DEG /* and as if at 90 deg, with the phase function of a Lambert sphere
                                 */
 } observed_kind;
+extern const char *const observed_kind_names[3];
 
 /* One observation. */
 typedef struct observed_row {
@@ -228,6 +229,9 @@ typedef struct observed_track {
     size_t n;
     /* Rows that are not among them: */
     int64_t other_filter, without_magnitude, outside_time;
+    double from_s, to_s; /* of what has a magnitude and the filter, also outside of the run; TT s
+                            from the start; set where n + outside_time > 0 */
+    char a_filter[24];   /* the first other filter, maybe cut; "" where there is none */
 } observed_track;
 
 struct glint_scenario {

@@ -205,7 +205,9 @@ glint_status refuse_deep_key(std::string_view text, size_t at, const char *path,
                       "this key has more than %d parts; expected fewer dots", MOST_KEY_PARTS);
 }
 
-glint_status parse(std::string_view text, const char *path, toml_node *root, glint_errors *errors)
+// *is_syntax: set where the text is no TOML; NULL allowed.
+glint_status parse(std::string_view text, const char *path, toml_node *root, bool *is_syntax,
+                   glint_errors *errors)
 {
     const size_t before = glint_errors_error_count(errors);
     const size_t deep = find_deep_key(text);
@@ -216,6 +218,7 @@ glint_status parse(std::string_view text, const char *path, toml_node *root, gli
         restore_order(root);
     } catch (const toml::parse_error &error) {
         const std::string_view why = error.description();
+        if (is_syntax) *is_syntax = true;
         return errors_add(errors, GLINT_INPUT, place_of(error.source(), path),
                           "TOML syntax error: %.*s", static_cast<int>(why.size()), why.data());
     } catch (const out_of_memory &) {
@@ -314,8 +317,8 @@ extern "C" glint_status toml_read(const char *path, place asked_from, toml_docum
     if (status)
         errors_take(errors, &error, asked_from);
     else
-        status =
-            parse(std::string_view(document->text, size), document->path, &document->root, errors);
+        status = parse(std::string_view(document->text, size), document->path, &document->root,
+                       nullptr, errors);
     if (status) {
         toml_free(document);
         return status;
@@ -341,9 +344,9 @@ extern "C" glint_status toml_override(toml_document *document, const char *assig
         return errors_add(errors, GLINT_ARGUMENT, PLACE_NONE,
                           "--set '%s': expected key=value, as in time.step_s=0.5", assignment);
     toml_node from{};
-    const size_t before = glint_errors_count(errors);
-    glint_status status = parse(assignment, OVERRIDE_PATH, &from, errors);
-    if (status && glint_errors_count(errors) > before)
+    bool is_syntax = false;
+    glint_status status = parse(assignment, OVERRIDE_PATH, &from, &is_syntax, errors);
+    if (is_syntax)
         errors_add(errors, status, PLACE_NONE,
                    "--set '%s': the value must be TOML: texts stand in quotes, as in "
                    "--set 'orbit.tle_name=\"HST\"'",
