@@ -17,6 +17,8 @@ typedef struct property {
 } property;
 
 /* Says why a property does not hold; false. */
+static bool broken(char why[WHY], const char *format, ...) GLINT_PRINTF(2, 3);
+
 static bool broken(char why[WHY], const char *format, ...)
 {
     va_list args;

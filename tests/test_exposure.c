@@ -165,6 +165,43 @@ START_TEST(test_exposure_of_diffuse_light_is_the_integral_of_the_samples)
 }
 END_TEST
 
+/* Earthshine is averaged as sunlight is: each by itself is near its sample, from which a second of
+ * slow motion takes it by 1e-3 at most, and on top of sunlight the two add. */
+START_TEST(test_exposure_earthshine_is_averaged_apart)
+{
+    static const char EARTH[] = "[photometry]\nearthshine = { albedo = 0.3 }\n";
+    run_rows sample = run_box(20, 0, EARTH), mean = run_box(20, 2, EARTH), sun = run_box(20, 2, "");
+    for (size_t k = 0; k < sample.n; k++) {
+        const double earth = mean.rows[k].earthshine_flux_ratio[0];
+        ck_assert(earth > 0);
+        assert_rel(earth, sample.rows[k].earthshine_flux_ratio[0], 2e-3);
+        assert_rel(mean.rows[k].flux_ratio[0], sun.rows[k].flux_ratio[0] + earth, 1e-12);
+    }
+    rows_free(&sample);
+    rows_free(&mean);
+    rows_free(&sun);
+}
+END_TEST
+
+/* A mirror that never throws the Sun to the observer, who sees it lit from behind or aside. */
+START_TEST(test_exposure_without_light_is_flagged_dark)
+{
+    const char *parts[N_PARTS];
+    memcpy(parts, MIRROR, sizeof parts);
+    parts[PART_COMPONENT] = "[[component]]\nname = \"panel\"\n";
+    parts[PART_TIME] = "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 2\nstep_s = 1\n"
+                       "exposure_s = 1\n";
+    run_rows rows = run_with(parts, PART_SETTINGS, "");
+    ck_assert_uint_eq(rows.n, 3);
+    for (size_t k = 0; k < rows.n; k++) {
+        ck_assert(rows.rows[k].flux_ratio[0] == 0);
+        ck_assert_uint_eq(rows.rows[k].flags & (GLINT_DARK | GLINT_BELOW_HORIZON | GLINT_UMBRA),
+                          GLINT_DARK);
+    }
+    rows_free(&rows);
+}
+END_TEST
+
 /* ------------------------------------------------------- sums of exposures */
 
 /* A tumbling box with gloss, foil and a hinge: two halves are the whole. */
@@ -220,9 +257,8 @@ START_TEST(test_exposure_threads_give_the_same_bits)
 {
     run_rows one = run_tumbling(2, 1);
     run_rows three = run_tumbling(2, 3);
-    const size_t width = 2 * one.n_bands + one.n_materials + one.n_components;
     ck_assert_uint_eq(one.n, three.n);
-    ck_assert_mem_eq(one.numbers, three.numbers, one.n * width * sizeof *one.numbers);
+    ck_assert_mem_eq(one.numbers, three.numbers, one.n * rows_width(&one) * sizeof *one.numbers);
     rows_free(&one);
     rows_free(&three);
 }
@@ -357,6 +393,8 @@ int main(void)
     tcase_add_test(
         all, test_exposure_of_diffuse_light_differs_from_the_sample_by_the_square_of_its_length);
     tcase_add_test(all, test_exposure_of_diffuse_light_is_the_integral_of_the_samples);
+    tcase_add_test(all, test_exposure_earthshine_is_averaged_apart);
+    tcase_add_test(all, test_exposure_without_light_is_flagged_dark);
     tcase_add_test(all, test_exposure_two_halves_are_the_whole);
     tcase_add_test(all, test_exposure_threads_give_the_same_bits);
     tcase_add_test(all, test_exposure_light_from_before_the_horizon_counts);

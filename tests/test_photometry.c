@@ -156,6 +156,24 @@ START_TEST(test_photometry_standard_magnitudes_of_a_diffuse_sphere_do_not_depend
 }
 END_TEST
 
+/* sin q - q cos q, q the angle from pi, is the sum of -(-1)^n 2 n q^(2n+1) / (2n+1)!, whatever the
+ * program does for small q and for large; over pi, it is the part of what a full sphere shows. */
+START_TEST(test_photometry_standard_magnitudes_near_opposition_are_the_series)
+{
+    static const double ANGLES[] = {1, 0.6, 0.45, 0.3, 0.1, 0.03, 0.021, 0.019, 0.01, 1e-3, 1e-5};
+    for (size_t k = 0; k < COUNT_OF(ANGLES); k++) {
+        const double phase = PI - ANGLES[k], q = PI - phase; /* as PI - phase rounds */
+        double term = -q, sum = 0;                           /* (-1)^(n+1) q^(2n+1) / (2n+1)! */
+        for (int n = 1; n <= 12; n++) {
+            term *= -q * q / (2 * n * (2 * n + 1));
+            sum += 2 * n * term;
+        }
+        /* at q = 0.02 the difference of sin and q cos keeps 1e-16/1e-4 */
+        assert_near(magnitude_to_standard(1e6, phase, 0), 2.5 * log10(sum / PI), 3e-12);
+    }
+}
+END_TEST
+
 START_TEST(test_photometry_columns_of_standard_magnitudes_are_named_and_without_extinction)
 {
     static const char BOTH[] = "[photometry]\nextinction = { V = 0.5 }\n"
@@ -289,6 +307,13 @@ START_TEST(test_photometry_bright_and_faint_limits_scale_as_they_must)
     noise_of(&t, 0, &bright, &terms);
     /* scintillation alone: sqrt(1e-5) 1.5 0.5^(-2/3) */
     assert_rel(1 / noise_snr(&terms), sqrt(1e-5) * 1.5 * pow(0.5, -2.0 / 3), 1e-6);
+    /* which grows as the airmass to the power 3/2 (Osborn et al. 2015, eq. 7: variance as its cube)
+     */
+    noise_view low = bright;
+    low.airmass = 2.5;
+    noise_terms more;
+    noise_of(&t, 0, &low, &more);
+    assert_rel(more.scintillation_e, pow(2.5, 1.5) * terms.scintillation_e, 1e-14);
     /* photons alone */
     t.scintillation = 0;
     noise_terms first = terms_of(&t, 2, 1, 0), second = terms_of(&t, 4, 1, 0);
@@ -488,6 +513,7 @@ int main(void)
     tcase_add_test(
         standard,
         test_photometry_standard_magnitudes_of_a_diffuse_sphere_do_not_depend_on_the_phase);
+    tcase_add_test(standard, test_photometry_standard_magnitudes_near_opposition_are_the_series);
     tcase_add_test(standard,
                    test_photometry_columns_of_standard_magnitudes_are_named_and_without_extinction);
     suite_add_tcase(suite, standard);
