@@ -7,9 +7,11 @@
  *
  * usage: bench_kernel [MODEL FACETS MOTION]     one case instead of all
  * Prints a table: M facet-samples/s, and ratios. Fails when kernel and naive sum disagree. */
+#include "draws.h"
 #include "naive.h"
 #include "timing.h"
 
+#include "base/clones.h"
 #include "base/constants.h"
 #include "base/vec.h"
 #include "brdf/brdf.h"
@@ -24,13 +26,6 @@ enum { ROUNDS = 7 };
 static const double AT_LEAST_S = 0.03; /* of each measurement */
 static const double STEP_DEG = 0.5;    /* by which a body in coherent motion turns each step */
 static const double PHASE_DEG = 60.0;
-
-/* As the kernel's: one binary for three generations of x86-64. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__GLIBC__)
-#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define CLONES
-#endif
 
 typedef struct model_case {
     const char *name;
@@ -104,25 +99,6 @@ static void make_facets(scene *s)
                               .tangent = {array[3], array[4], array[5]},
                               .bitangent = {array[6], array[7], array[8]},
                               .area = array[9]};
-}
-
-/* splitmix64 (Steele, Lea, Flood 2014), as a number from 0 to 1. */
-static double random_number(uint64_t *state)
-{
-    uint64_t x = *state += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
-
-/* A uniformly distributed rotation (Shoemake 1992, Graphics Gems III). */
-static void random_rotation(uint64_t *state, double out[9])
-{
-    const double u = random_number(state), a = TWO_PI * random_number(state);
-    const double b = TWO_PI * random_number(state);
-    const double q[4] = {sqrt(u) * cos(b), sqrt(1 - u) * sin(a), sqrt(1 - u) * cos(a),
-                         sqrt(u) * sin(b)};
-    mat_from_quat(q, out);
 }
 
 /* Sun and observer stay; the body turns steadily, or takes any attitude at every step. */

@@ -15,6 +15,7 @@
  * into looking from both directions, into finding candidates by the walk (an upper bound: lists
  * spare many walks), and into the rest: taking covers, cutting; how large a part of the lit and
  * seen area is left. */
+#include "draws.h"
 #include "timing.h"
 
 #include "base/constants.h"
@@ -40,25 +41,6 @@ static void *allocate(size_t n, size_t size)
     void *memory = calloc(n, size);
     if (!memory) fail("out of memory");
     return memory;
-}
-
-/* splitmix64 (Steele, Lea, Flood 2014), as a number from 0 to 1. */
-static double random_number(uint64_t *state)
-{
-    uint64_t x = *state += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
-
-/* A uniformly distributed rotation (Shoemake 1992, Graphics Gems III). */
-static void random_rotation(uint64_t *state, double out[9])
-{
-    const double u = random_number(state), a = TWO_PI * random_number(state);
-    const double b = TWO_PI * random_number(state);
-    const double q[4] = {sqrt(u) * cos(b), sqrt(1 - u) * sin(a), sqrt(1 - u) * cos(a),
-                         sqrt(u) * sin(b)};
-    mat_from_quat(q, out);
 }
 
 /* --- models --- */
@@ -180,9 +162,9 @@ static void make_craft(facet_list *list, int n, uint64_t *state)
     add_dish(list, n / 3 / n_sides, n_sides);
     add_tank(list, n_wall);
     while (list->n < n) { /* units on the +y and -y walls */
-        const double size = 2.0 / sqrt(n), x = -1 + (2 - size) * random_number(state);
-        const double z = -1.5 + (3 - size) * random_number(state);
-        const double y = random_number(state) < 0.5 ? -1.2 - 0.5 * size : 1.2;
+        const double size = 2.0 / sqrt(n), x = -1 + (2 - size) * random_even(state);
+        const double z = -1.5 + (3 - size) * random_even(state);
+        const double y = random_even(state) < 0.5 ? -1.2 - 0.5 * size : 1.2;
         const double from[3] = {x, y, z}, to[3] = {x + size, y + 0.5 * size, z + size};
         add_straight_box(list, from, to);
     }
@@ -284,8 +266,8 @@ static void make_boxes(facet_list *list, int n, uint64_t *state)
         double turn[9], edge[3][3], corner[3];
         random_rotation(state, turn);
         for (int j = 0; j < 3; j++) {
-            corner[j] = reach * (2 * random_number(state) - 1);
-            scale3(turn + 3 * j, size * (0.2 + 0.8 * random_number(state)), edge[j]);
+            corner[j] = reach * (2 * random_even(state) - 1);
+            scale3(turn + 3 * j, size * (0.2 + 0.8 * random_even(state)), edge[j]);
         }
         add_box(list, corner, (const double(*)[3])edge);
     }
@@ -298,9 +280,9 @@ static void make_plates(facet_list *list, int n, uint64_t *state)
         double turn[9], plate[4][3];
         random_rotation(state, turn);
         for (int j = 0; j < 3; j++)
-            plate[0][j] = reach * (2 * random_number(state) - 1);
-        add_scaled3(plate[0], size * (0.2 + 0.8 * random_number(state)), turn, plate[1]);
-        add_scaled3(plate[1], size * (0.2 + 0.8 * random_number(state)), turn + 3, plate[2]);
+            plate[0][j] = reach * (2 * random_even(state) - 1);
+        add_scaled3(plate[0], size * (0.2 + 0.8 * random_even(state)), turn, plate[1]);
+        add_scaled3(plate[1], size * (0.2 + 0.8 * random_even(state)), turn + 3, plate[2]);
         sub3(plate[2], plate[1], plate[3]);
         add3(plate[3], plate[0], plate[3]);
         add_facet(list, (const double(*)[3])plate, 4);

@@ -8,9 +8,15 @@
 /* All rows of a run, copied: their numbers lie in `numbers`. */
 typedef struct run_rows {
     glint_row *rows;
-    double *numbers; /* per row: bands x (flux ratio, magnitude), materials, components */
-    size_t n, n_bands, n_materials, n_components, n_blocks;
+    double *numbers; /* per row: bands x (flux ratio, magnitude), materials, components, and the
+                        bands of the earthshine where there is any */
+    size_t n, n_bands, n_materials, n_components, n_earth, n_blocks;
 } run_rows;
+
+static inline size_t rows_width(const run_rows *r)
+{
+    return 2 * r->n_bands + r->n_materials + r->n_components + r->n_earth;
+}
 
 static inline void rows_free(run_rows *r)
 {
@@ -20,8 +26,7 @@ static inline void rows_free(run_rows *r)
 
 static inline void copy_row(const glint_row *row, run_rows *out)
 {
-    const size_t width = 2 * out->n_bands + out->n_materials + out->n_components;
-    double *to = out->numbers + out->n * width;
+    double *to = out->numbers + out->n * rows_width(out);
     glint_row *copy = &out->rows[out->n++];
     *copy = *row;
     memcpy(to, row->flux_ratio, out->n_bands * sizeof *to);
@@ -31,7 +36,10 @@ static inline void copy_row(const glint_row *row, run_rows *out)
     memcpy(to, row->share_material, out->n_materials * sizeof *to);
     copy->share_material = to, to += out->n_materials;
     memcpy(to, row->share_component, out->n_components * sizeof *to);
-    copy->share_component = to;
+    copy->share_component = to, to += out->n_components;
+    copy->share_surface = NULL;
+    if (out->n_earth) memcpy(to, row->earthshine_flux_ratio, out->n_earth * sizeof *to);
+    copy->earthshine_flux_ratio = out->n_earth ? to : NULL;
 }
 
 /* Runs a scenario; rows_free ends it. */
@@ -45,10 +53,10 @@ static inline run_rows run(const glint_scenario *s, int threads)
     const size_t most = (size_t)glint_curve_length(curve);
     run_rows out = {.n_bands = (size_t)s->n_bands,
                     .n_materials = (size_t)s->satellite.model.n_materials,
-                    .n_components = (size_t)s->satellite.model.n_components};
-    const size_t width = 2 * out.n_bands + out.n_materials + out.n_components;
+                    .n_components = (size_t)s->satellite.model.n_components,
+                    .n_earth = s->earth.wanted ? (size_t)s->n_bands : 0};
     out.rows = calloc(most, sizeof *out.rows);
-    out.numbers = calloc(most * width, sizeof *out.numbers);
+    out.numbers = calloc(most * rows_width(&out), sizeof *out.numbers);
     const glint_row *rows;
     glint_error error;
     for (size_t n = 1; n > 0;) {

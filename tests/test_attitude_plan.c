@@ -146,10 +146,12 @@ START_TEST(test_attitude_plan_slew_does_not_jump_where_laws_are_opposite)
     static const double step_s = 0.01;
     for (int way = -1; way <= 1; way += 2) {
         /* at the start 160 deg apart, 20 s later 180 deg */
-        attitude_plan plan = plan_of(inertial(z_axis, 0), spinning(way, 90 + way * 160), 0, 60);
+        attitude_plan plan = plan_of(inertial(z_axis, 0), spinning(way, way * 160), 0, 60);
         settle(&plan);
         double before[9], after[9];
         axes_at(&plan, 0, before);
+        axes_at(&plan, 60, after);
+        assert_near(angle_between(before, after), (360 - 220) * DEG, 1e-12);
         for (int i = 1; i <= 6500; i++) {
             axes_at(&plan, i * step_s, after);
             /* the share grows by 1/60 each second of at most 220 deg, of which at most 1 deg/s more
@@ -185,6 +187,29 @@ START_TEST(test_attitude_plan_slew_of_a_given_rate_lasts_the_angle_over_it)
     plan.legs[1].rate_rad_s = 1.5 * DEG;
     settle(&plan);
     assert_near(plan.legs[1].slew_s, 50, 1e-12);
+    attitude_plan_free(&plan);
+}
+END_TEST
+
+/* Two observers see the slew begin at different moments of the law before, 40 and 60 deg from where
+ * it ends: each of them sees one of its own length. */
+START_TEST(test_attitude_plan_slew_begins_anew_for_every_observer)
+{
+    attitude_plan plan = plan_of(spinning(1, 0), inertial(z_axis, 0), 50, 0);
+    const moment starts[2] = {{.t_s = 40}, {.t_s = 60, .viewer = 1}};
+    plan.legs[1].rate_rad_s = 2 * DEG;
+    ck_assert_int_eq(attitude_plan_settle(&plan, 1, starts, 2, NULL), GLINT_OK);
+    assert_near(plan.legs[1].slew_s, 30, 1e-12);
+    for (int viewer = 0; viewer < 2; viewer++) {
+        const double end_s = 50 + (viewer ? 30 : 20);
+        double before[9], after[9];
+        const moment inside = {.t_s = end_s - 0.5, .viewer = viewer};
+        const moment outside = {.t_s = end_s + 1e-9, .viewer = viewer};
+        ck_assert_int_eq(attitude_plan_at(&plan, &inside, before, NULL), GLINT_OK);
+        ck_assert_int_eq(attitude_plan_at(&plan, &outside, after, NULL), GLINT_OK);
+        ck_assert_double_gt(angle_between(before, after), 0.5 * DEG); /* still on its way */
+        assert_near(angle_between(after, (double[9]){1, 0, 0, 0, 1, 0, 0, 0, 1}), 0, 1e-12);
+    }
     attitude_plan_free(&plan);
 }
 END_TEST
@@ -305,6 +330,7 @@ static Suite *plan_suite(void)
     tcase_add_test(tests, test_attitude_plan_slew_does_not_jump_where_laws_are_opposite);
     tcase_add_test(tests, test_attitude_plan_slew_meets_both_laws);
     tcase_add_test(tests, test_attitude_plan_slew_of_a_given_rate_lasts_the_angle_over_it);
+    tcase_add_test(tests, test_attitude_plan_slew_begins_anew_for_every_observer);
     tcase_add_test(tests, test_attitude_plan_wants_what_any_law_looks_at);
     tcase_add_test(tests, test_attitude_plan_reads_times_and_slews);
     tcase_add_test(tests, test_attitude_plan_wrong_sequences_are_refused);

@@ -272,6 +272,41 @@ START_TEST(test_attitude_table_aem_spin_axis_and_angle)
 }
 END_TEST
 
+/* Rows that are whole turns apart look like a body at rest: only the rates tell. 6 deg/s make 360
+ * deg in the minute between the rows; 1.4 deg/s make 84 deg, and 1.6 deg/s 96 deg, on either side
+ * of the 90 deg of which a warning tells. */
+START_TEST(test_attitude_table_aem_rates_tell_of_turns_between_rows)
+{
+    static const struct {
+        const char *type, *row, *warned; /* NULL: no warning */
+    } CASES[] = {
+        {"SPIN", "50 20 0 6", "360 deg"},
+        {"SPIN", "50 20 0 -6", "360 deg"},
+        {"SPIN", "50 20 0 1.4", NULL},
+        {"QUATERNION/ANGVEL", "0 0 0 1 0.96 0 -1.28", "96 deg"},
+        {"QUATERNION/ANGVEL", "0 0 0 1 0.84 0 -1.12", NULL},
+    };
+    for (size_t k = 0; k < COUNT_OF(CASES); k++) {
+        char content[1024];
+        snprintf(content, sizeof content,
+                 AEM_HEAD("2.0") "META_START\nOBJECT_NAME = BOX\nOBJECT_ID = 2024-001A\n" TO_BODY
+                                 "\nTIME_SYSTEM = UTC\nATTITUDE_TYPE = %s\nMETA_STOP\nDATA_START\n"
+                                 "2024-01-01T12:00:00 %s\n2024-01-01T12:01:00 %s\nDATA_STOP\n",
+                 CASES[k].type, CASES[k].row, CASES[k].row);
+        attitude_table *t;
+        glint_errors *errors = glint_errors_new();
+        ck_assert_int_eq(attitude_table_read(write_file("rates.aem", content), NULL, NULL,
+                                             clock_2024(), PLACE_NONE, &t, errors),
+                         GLINT_OK);
+        ck_assert_uint_eq(glint_errors_count(errors), CASES[k].warned ? 1 : 0);
+        if (CASES[k].warned)
+            ck_assert_ptr_nonnull(strstr(glint_errors_get(errors, 0)->message, CASES[k].warned));
+        attitude_table_free(t);
+        glint_errors_free(errors);
+    }
+}
+END_TEST
+
 /* A second program's file: its Euler angles Z (10, 40, ... deg), X (20, 50, ...), Z, and its
  * quaternions of the same motion, whose last turn about Z is 40 deg further on; six decimals. */
 START_TEST(test_attitude_table_aem_euler_and_quaternions_of_another_program)
@@ -839,6 +874,7 @@ static Suite *table_suite(void)
     tcase_add_test(tests, test_attitude_table_aem_quaternion_is_a_frame_transformation);
     tcase_add_test(tests, test_attitude_table_aem_euler_angles_are_turns_of_the_frame);
     tcase_add_test(tests, test_attitude_table_aem_spin_axis_and_angle);
+    tcase_add_test(tests, test_attitude_table_aem_rates_tell_of_turns_between_rows);
     tcase_add_test(tests, test_attitude_table_aem_euler_and_quaternions_of_another_program);
     tcase_add_test(tests, test_attitude_table_aem_xml_of_another_program);
     tcase_add_test(tests, test_attitude_table_aem_keywords_of_another_program);

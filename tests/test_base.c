@@ -3,6 +3,8 @@
 
 #include "base/error.h"
 #include "base/param.h"
+#include "base/random.h"
+#include "base/sorted.h"
 #include "base/text.h"
 
 #include <float.h>
@@ -159,15 +161,6 @@ END_TEST
 
 /* --------------------------------------------------------------- numbers */
 
-/* Steele and Vigna's splitmix64: reproducible bits. */
-static uint64_t next_bits(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
-
 /* number_format with a terminator. */
 static void format(double value, char out[NUMBER_SIZE + 1])
 {
@@ -236,7 +229,7 @@ START_TEST(test_number_round_trips_for_any_bits)
 {
     uint64_t state = 20250724;
     for (int k = 0; k < 50000; k++) {
-        const uint64_t bits = next_bits(&state);
+        const uint64_t bits = random_next(&state);
         double value;
         memcpy(&value, &bits, sizeof value);
         if (isfinite(value)) check_number(value);
@@ -248,7 +241,7 @@ START_TEST(test_number_round_trips_for_denormals)
 {
     uint64_t state = 1;
     for (int k = 0; k < 20000; k++) {
-        const uint64_t bits = next_bits(&state) & 0x800fffffffffffffu;
+        const uint64_t bits = random_next(&state) & 0x800fffffffffffffu;
         double value;
         memcpy(&value, &bits, sizeof value);
         check_number(value);
@@ -538,6 +531,69 @@ START_TEST(test_param_says_its_range_in_words)
 }
 END_TEST
 
+/* The first numbers from the state 1234567, as Rosetta Code's page on splitmix64 lists them. */
+START_TEST(test_random_gives_the_published_sequence)
+{
+    static const uint64_t EXPECTED[5] = {
+        UINT64_C(6457827717110365317), UINT64_C(3203168211198807973), UINT64_C(9817491932198370423),
+        UINT64_C(4593380528125082431), UINT64_C(16408922859458223821)};
+    uint64_t state = 1234567;
+    for (int k = 0; k < 5; k++)
+        ck_assert_uint_eq(random_next(&state), EXPECTED[k]);
+}
+END_TEST
+
+/* Means and variances of the two distributions; of n = 10^5 numbers they scatter by sqrt(1/12n) and
+ * sqrt(1/n), their variances by about sqrt(2/n) of themselves. Five times that is allowed. */
+START_TEST(test_random_has_the_moments_it_says)
+{
+    enum { N = 100000 };
+    uint64_t state = 1;
+    double even = 0.0, even2 = 0.0, normal = 0.0, normal2 = 0.0;
+    for (int k = 0; k < N; k++) {
+        const double e = random_even(&state), n = random_normal(&state);
+        ck_assert(e >= 0.0 && e < 1.0);
+        ck_assert(n >= -6.0 && n <= 6.0);
+        even += e / N, even2 += e * e / N, normal += n / N, normal2 += n * n / N;
+    }
+    assert_near(even, 0.5, 5.0 * sqrt(1.0 / 12.0 / N));
+    assert_near(even2 - even * even, 1.0 / 12.0, 5.0 * sqrt(2.0 / N) / 12.0);
+    assert_near(normal, 0.0, 5.0 * sqrt(1.0 / N));
+    assert_near(normal2 - normal * normal, 1.0, 5.0 * sqrt(2.0 / N));
+}
+END_TEST
+
+/* ------------------------------------------------- numbers that ascend */
+
+/* Numbers with others between them, as in an array of structures; one of them twice. */
+static const double ASCENDING[5][2] = {{1, -9}, {2, -9}, {2, -9}, {4, -9}, {8, -9}};
+
+START_TEST(test_sorted_up_to_counts_as_one_by_one_does)
+{
+    static const double AT[] = {-1, 1, 1.5, 2, 3, 4, 7.9, 8, 9, INFINITY, -INFINITY};
+    for (size_t a = 0; a < sizeof AT / sizeof *AT; a++)
+        for (size_t n = 0; n <= 5; n++) {
+            size_t count = 0;
+            for (size_t k = 0; k < n; k++)
+                count += ASCENDING[k][0] <= AT[a];
+            ck_assert_uint_eq(sorted_up_to(ASCENDING[0], n, sizeof ASCENDING[0], AT[a]), count);
+        }
+}
+END_TEST
+
+START_TEST(test_sorted_interval_stays_within_the_ends)
+{
+    static const struct {
+        double x;
+        size_t interval;
+    } CASES[] = {{0, 0}, {1, 0}, {1.9, 0}, {2, 2}, {3.9, 2}, {4, 3}, {7, 3}, {8, 3}, {99, 3}};
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++)
+        ck_assert_uint_eq(sorted_interval(ASCENDING[0], 5, sizeof ASCENDING[0], CASES[c].x),
+                          CASES[c].interval);
+    ck_assert_uint_eq(sorted_interval(ASCENDING[0], 1, sizeof ASCENDING[0], 5), 0);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("base");
@@ -563,6 +619,10 @@ int main(void)
     tcase_add_test(numbers, test_number_tells_underflow_from_overflow_of_long_numbers);
     tcase_add_test(numbers, test_number_refuses_what_is_no_decimal_number);
     tcase_add_test(numbers, test_number_reads_no_further_than_told);
+    tcase_add_test(numbers, test_random_gives_the_published_sequence);
+    tcase_add_test(numbers, test_random_has_the_moments_it_says);
+    tcase_add_test(numbers, test_sorted_up_to_counts_as_one_by_one_does);
+    tcase_add_test(numbers, test_sorted_interval_stays_within_the_ends);
     tcase_add_test(names, test_nearest_name_finds_slips);
     tcase_add_test(names, test_nearest_name_stands_very_long_names);
     tcase_add_test(names, test_path_beside_joins_folder_and_name);

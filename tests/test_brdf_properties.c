@@ -17,6 +17,8 @@ typedef struct property {
 } property;
 
 /* Says why a property does not hold; false. */
+static bool broken(char why[WHY], const char *format, ...) GLINT_PRINTF(2, 3);
+
 static bool broken(char why[WHY], const char *format, ...)
 {
     va_list args;
@@ -458,6 +460,83 @@ static bool tile_of_nothing_lit_adds_nothing(const brdf_model *model, uint64_t s
     return true;
 }
 
+/* What a watch was shown, and a part of it that is taken. */
+typedef struct record {
+    uint32_t shown[N_FACETS], taken[N_FACETS];
+    int calls;
+} record;
+
+static uint32_t note(void *finder, int facet, uint32_t lanes)
+{
+    record *seen = finder;
+    seen->calls++;
+    seen->shown[facet] = lanes;
+    seen->taken[facet] = lanes & UINT32_C(0x5a5af0c3);
+    return seen->taken[facet];
+}
+
+/* Some lanes are never to be shown at the horizon; the other limits are met by some percent. */
+static void random_watch(brdf_watch *watch, brdf_watch_kind kind, record *seen, uint64_t *state)
+{
+    *seen = (record){.calls = 0};
+    *watch = (brdf_watch){.kind = kind, .finder = seen, .found = note};
+    for (int k = 0; k < BRDF_TILE; k++) {
+        watch->low[k] = k % 5 == 0 ? -1.0 : 0.2 * next_random(state);
+        watch->near[k] = 1.5 + 0.5 * next_random(state);
+        watch->graze[k] = 0.3 * next_random(state);
+    }
+}
+
+/* By how much a sample is beyond the limits of its watch. */
+static double beyond_limits(const brdf_watch *watch, int k, double ci, double cr)
+{
+    double most = watch->low[k] - fabs(ci);
+    if (watch->kind >= BRDF_WATCH_LOBE) most = fmax(most, ci + cr - watch->near[k]);
+    if (watch->kind >= BRDF_WATCH_WINGS) most = fmax(most, watch->graze[k] - fabs(ci) - cr);
+    return fmin(most, cr - BRDF_EDGE);
+}
+
+/* The kernel shows what its watch asks for and nothing else, and adds all but what is taken: the
+ * same as with these samples hidden. */
+static bool tile_shows_what_is_watched(const brdf_model *model, uint64_t seed, char why[WHY])
+{
+    static double visible[N_FACETS * BRDF_TILE];
+    double coef[COEF_ROOM];
+    facet_set set;
+    brdf_light light;
+    brdf_watch watch;
+    record seen;
+    for (int draw = 0; draw < 30; draw++) {
+        draw_coef(model, &seed, coef);
+        random_facets(&set, &seed);
+        random_light(&light, &seed);
+        random_watch(&watch, (brdf_watch_kind)(draw % 3), &seen, &seed);
+        brdf_facets facets = facets_of(&set);
+        double sum[BRDF_TILE] = {0}, want[BRDF_TILE] = {0};
+        facets.watch = &watch;
+        model->tile(coef, 1.0, &facets, &light, NULL, sum);
+        if (seen.calls == 0) return broken(why, "nothing is shown");
+        for (int n = 0; n < N_FACETS * BRDF_TILE; n++) {
+            const int f = n / BRDF_TILE, k = n % BRDF_TILE;
+            double i[3], r[3];
+            get_lane(&light, k, i, r);
+            const double normal[3] = {set.normal[0][f], set.normal[1][f], set.normal[2][f]};
+            const double beyond = beyond_limits(&watch, k, dot3(i, normal), dot3(r, normal));
+            const bool shown = seen.shown[f] >> k & 1;
+            if (fabs(beyond) > 1e-14 && shown != (beyond > 0.0))
+                return broken(why, "a sample %g beyond the limits is%s shown", beyond,
+                              shown ? "" : " not");
+            visible[n] = seen.taken[f] >> k & 1 ? 0.0 : 1.0;
+        }
+        facets.watch = NULL;
+        model->tile(coef, 1.0, &facets, &light, visible, want);
+        for (int k = 0; k < BRDF_TILE; k++)
+            if (!is_near(sum[k], want[k], 0.0))
+                return broken(why, "lane %d has %.17g, not %.17g", k, sum[k], want[k]);
+    }
+    return true;
+}
+
 /* ---------------------------------------------------------------- descriptors */
 
 static bool descriptor_is_complete(const brdf_model *model, uint64_t seed, char why[WHY])
@@ -495,6 +574,7 @@ static const property properties[] = {
     {"tile is linear and adds", tile_is_linear_and_adds},
     {"tile lanes are independent", tile_lanes_are_independent},
     {"tile of nothing lit adds nothing", tile_of_nothing_lit_adds_nothing},
+    {"tile shows what is watched", tile_shows_what_is_watched},
 };
 enum { N_PROPERTIES = sizeof properties / sizeof properties[0] };
 
@@ -555,11 +635,13 @@ static inline double sound_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE sound_lane
 #define brdf_eval sound_eval
 #define brdf_tile_add sound_tile_add
+#define brdf_tile_run sound_tile_run
 #define brdf_tile sound_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: f depends on the incidence alone. */
@@ -570,11 +652,13 @@ static inline double one_way_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE one_way_lane
 #define brdf_eval one_way_eval
 #define brdf_tile_add one_way_tile_add
+#define brdf_tile_run one_way_tile_run
 #define brdf_tile one_way_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: reflects 1.3 times the share that it says. */
@@ -585,11 +669,13 @@ static inline double generous_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE generous_lane
 #define brdf_eval generous_eval
 #define brdf_tile_add generous_tile_add
+#define brdf_tile_run generous_tile_run
 #define brdf_tile generous_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: no number where source and observer both graze the surface. */
@@ -601,11 +687,13 @@ static inline double grazing_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE grazing_lane
 #define brdf_eval grazing_eval
 #define brdf_tile_add grazing_tile_add
+#define brdf_tile_run grazing_tile_run
 #define brdf_tile grazing_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: depends on the tangent. */
@@ -616,11 +704,13 @@ static inline double brushed_lane(const double *coef, const brdf_lane *l)
 #define BRDF_LANE brushed_lane
 #define brdf_eval brushed_eval
 #define brdf_tile_add brushed_tile_add
+#define brdf_tile_run brushed_tile_run
 #define brdf_tile brushed_tile
 #include "brdf/tile.h"
 #undef BRDF_LANE
 #undef brdf_eval
 #undef brdf_tile_add
+#undef brdf_tile_run
 #undef brdf_tile
 
 /* Wrong: a scalar face without a horizon, and below 0 for some pairs. */
@@ -635,7 +725,7 @@ static double owing_eval(const double *coef, const double i[3], const double r[3
 }
 
 /* Wrong: kernels that write over what is there, that let one lane see another, that read the
- * component's axes for the facet's, and that shine in the dark. */
+ * component's axes for the facet's, that shine in the dark, and that show nothing. */
 static void forgetting_tile(const double *coef, double weight, const brdf_facets *facets,
                             const brdf_light *light, const double *visible, double sum[BRDF_TILE])
 {
@@ -668,6 +758,14 @@ static void glowing_tile(const double *coef, double weight, const brdf_facets *f
     sound_tile(coef, weight, facets, light, visible, sum);
     for (int k = 0; k < BRDF_TILE; k++)
         sum[k] += 1e-9 * coef[0];
+}
+
+static void hiding_tile(const double *coef, double weight, const brdf_facets *facets,
+                        const brdf_light *light, const double *visible, double sum[BRDF_TILE])
+{
+    brdf_facets unwatched = *facets;
+    unwatched.watch = NULL;
+    sound_tile(coef, weight, &unwatched, light, visible, sum);
 }
 
 static double generous_specular(const double *coef, double ci)
@@ -735,6 +833,7 @@ static const struct {
     {KERNEL(forgetting), tile_is_linear_and_adds, "lane 0"},
     {KERNEL(leaking), tile_lanes_are_independent, "alone"},
     {KERNEL(glowing), tile_of_nothing_lit_adds_nothing, "lane 0"},
+    {KERNEL(hiding), tile_shows_what_is_watched, "nothing is shown"},
 };
 enum { N_WRONG = sizeof wrong_toys / sizeof wrong_toys[0] };
 

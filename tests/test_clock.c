@@ -285,10 +285,11 @@ START_TEST(test_clock_time_scale_find_knows_names)
 {
     time_scale scale;
     glint_error error = {0};
-    for (int k = SCALE_UTC; k <= SCALE_GPS; k++) {
-        ck_assert_int_eq(time_scale_find(time_scale_name((time_scale)k), PLACE_NONE, &scale, NULL),
-                         GLINT_OK);
-        ck_assert_int_eq(scale, k);
+    static const char *const NAMES[] = {"UTC", "TAI", "TT", "TDB", "GPS"};
+    static const time_scale SCALES[] = {SCALE_UTC, SCALE_TAI, SCALE_TT, SCALE_TDB, SCALE_GPS};
+    for (int k = 0; k < 5; k++) {
+        ck_assert_int_eq(time_scale_find(NAMES[k], PLACE_NONE, &scale, NULL), GLINT_OK);
+        ck_assert_int_eq(scale, SCALES[k]);
     }
     ck_assert_int_eq(time_scale_find("tdt", PLACE_NONE, &scale, NULL), GLINT_OK);
     ck_assert_int_eq(scale, SCALE_TT);

@@ -11,6 +11,7 @@ enum { MOST_ROWS = 64 };
 typedef struct rows {
     size_t n;
     double magnitude[MOST_ROWS], range_km[MOST_ROWS], phase_deg[MOST_ROWS], t_s[MOST_ROWS];
+    double sunlit[MOST_ROWS];
     char utc[MOST_ROWS][32];
 } rows;
 
@@ -31,6 +32,7 @@ static rows curve_of(const char *path)
             out.range_km[out.n] = r[k].range_m * 1e-3;
             out.phase_deg[out.n] = r[k].phase_angle_rad * 180 / PI;
             out.t_s[out.n] = r[k].t_s;
+            out.sunlit[out.n] = r[k].sunlit_fraction;
             const glint_utc *u = &r[k].utc;
             snprintf(out.utc[out.n], sizeof out.utc[out.n], "%04d-%02d-%02dT%02d:%02d:%02d.%06dZ",
                      u->year, u->month, u->day, u->hour, u->minute, u->second, u->microsecond);
@@ -120,6 +122,7 @@ START_TEST(test_compare_known_offsets_give_known_numbers)
     }
     const double exact = 1e-12; /* 15 digits of the track */
     ck_assert_int_eq(c.total.compared, 7);
+    ck_assert_int_eq(c.total.penumbra, 0);
     assert_near(c.total.mean, 0.4, exact);      /* 2.8 / 7 */
     assert_near(c.total.rms, sqrt(0.2), exact); /* 1.40 / 7 */
     assert_near(c.total.scatter, 0.2, exact);   /* sqrt(0.2 - 0.16) */
@@ -201,6 +204,40 @@ START_TEST(test_compare_julian_dates_are_the_same_moments)
 }
 END_TEST
 
+/* The number behind a key in JSON. */
+static double number_of(const char *text, const char *key)
+{
+    char quoted[64];
+    snprintf(quoted, sizeof quoted, "\"%s\":", key);
+    const char *at = strstr(text, quoted);
+    ck_assert_msg(at != NULL, "no %s in %s", key, text);
+    return strtod(at + strlen(quoted), NULL);
+}
+
+/* What is written is what was found, in the units that the names tell, with ranges 2 km and phase
+ * angles -0.5 deg off. */
+static void check_written(const compared *c)
+{
+    const char *path = in_folder("out");
+    ck_assert_int_eq(glint_comparison_write(c->c, GLINT_FORMAT_JSON, path, NULL), GLINT_OK);
+    char *text = read_bytes(path, NULL);
+    assert_near(number_of(text, "range_mean_km"), 2, 1e-9);
+    assert_near(number_of(text, "range_most_km"), 2, 1e-9);
+    assert_near(number_of(text, "phase_mean_deg"), -0.5, 1e-10);
+    assert_near(number_of(text, "phase_most_deg"), -0.5, 1e-10);
+    assert_near(number_of(text, "mean_mag"), c->total.mean, 0);
+    assert_near(number_of(text, "rms_mag"), c->total.rms, 0);
+    assert_near(number_of(text, "scatter_mag"), c->total.scatter, 0);
+    assert_near(number_of(text, "largest_mag"), c->total.largest, 0);
+    glint_observation o;
+    ck_assert(glint_comparison_get(c->c, 0, &o));
+    assert_near(number_of(text, "range_km"), o.range_m / 1000, 1e-9);
+    assert_near(number_of(text, "observed_range_km"), o.range_m / 1000 + 2, 1e-9);
+    assert_near(number_of(text, "phase_angle_deg"), o.phase_rad * 180 / PI, 1e-12);
+    assert_near(number_of(text, "residual"), o.residual, 0);
+    free(text);
+}
+
 /* m - 5 log10(range / 1000 km), and + 2.5 log10(sin phi + (pi - phi) cos phi) at 90 deg. */
 START_TEST(test_compare_standard_magnitudes_closed_form)
 {
@@ -226,6 +263,7 @@ START_TEST(test_compare_standard_magnitudes_closed_form)
         assert_near(c.total.range_most_m, 2000, 1e-6);
         assert_near(c.total.phase_mean_rad, -0.5 * PI / 180, 1e-12);
         assert_near(c.total.phase_most_rad, -0.5 * PI / 180, 1e-12);
+        check_written(&c);
         end(&c);
     }
 }
@@ -233,8 +271,8 @@ END_TEST
 
 /* ---------------------------------------------------------- what is left out */
 
-/* The satellite enters the Earth's shadow at some moment of this half revolution: rows in it are
- * told of and not compared, whatever their magnitudes. */
+/* The satellite enters the Earth's shadow at some moment of this half revolution, and a row lies on
+ * the way there: rows in the shadow are told of and not compared, whatever their magnitudes. */
 START_TEST(test_compare_eclipsed_observations_are_left_out)
 {
     static const char *const parts[N_PARTS] = {
@@ -248,9 +286,10 @@ START_TEST(test_compare_eclipsed_observations_are_left_out)
     const rows r = curve_of(write_file("plain.toml", with_part(all, PART_TOP, "").text));
     char track[4096];
     int n = sprintf(track, "utc,magnitude\n");
-    int bright = 0;
+    int bright = 0, penumbra = 0;
     for (size_t k = 0; k < r.n; k++) {
         bright += r.magnitude[k] != 0;
+        penumbra += r.sunlit[k] > 0 && r.sunlit[k] < 1;
         n += sprintf(track + n, "%s,%.15g\n", r.utc[k], r.magnitude[k] != 0 ? r.magnitude[k] : 12);
     }
     ck_assert_int_gt(bright, 3);
@@ -265,6 +304,8 @@ START_TEST(test_compare_eclipsed_observations_are_left_out)
     ck_assert_int_eq(total.compared, bright);
     ck_assert_int_eq(total.compared + total.eclipsed + total.dark, (int)r.n);
     ck_assert_int_gt(total.eclipsed, 3);
+    ck_assert_int_gt(penumbra, 0);
+    ck_assert_int_eq(total.penumbra, penumbra);
     assert_near(total.rms, 0, 1e-11);
     glint_comparison_free(c);
     glint_scenario_free(s);

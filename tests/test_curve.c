@@ -28,7 +28,7 @@ static run_rows run_vienna(const char *const *set, size_t n_set)
 static void assert_same_rows(const run_rows *a, const run_rows *b)
 {
     ck_assert_uint_eq(a->n, b->n);
-    const size_t width = 2 * a->n_bands + a->n_materials + a->n_components;
+    const size_t width = rows_width(a);
     ck_assert_mem_eq(a->numbers, b->numbers, a->n * width * sizeof *a->numbers);
     for (size_t k = 0; k < a->n; k++) {
         const glint_row *x = &a->rows[k], *y = &b->rows[k];

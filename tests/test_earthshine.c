@@ -1,4 +1,7 @@
 /* Earthshine through whole runs: what reaches the table, and that it is light beside the Sun's. */
+#include "base/constants.h"
+#include "base/vec.h"
+#include "lightcurve/tile.h"
 #include "scenario_text.h"
 
 /* 24 h of a low orbit, seen from a station that never sets: all of the day and the umbra. */
@@ -7,22 +10,22 @@ static const char ORBIT_DAY[] =
 static const char ANYWHERE[] =
     "[observer]\nlatitude_deg = 48.2\nlongitude_deg = 16.37\nmin_elevation_deg = -90\n";
 
-static const char *settings_of(const char *earthshine)
+static const char *settings_of(const char *ground)
 {
     static char text[1024];
     snprintf(text, sizeof text,
              "[photometry]\nbands = [\"V\", \"B\"]\nearthshine = %s\n[output]\nshares = \"both\"\n",
-             earthshine);
+             ground);
     return text;
 }
 
-static glint_scenario *scenario_of(const char *earthshine)
+static glint_scenario *scenario_of(const char *ground)
 {
     const char *parts[N_PARTS];
     memcpy(parts, SOUND, sizeof parts);
     parts[PART_TIME] = ORBIT_DAY;
     parts[PART_OBSERVER] = ANYWHERE;
-    return read_with(parts, PART_SETTINGS, settings_of(earthshine));
+    return read_with(parts, PART_SETTINGS, settings_of(ground));
 }
 
 enum { MOST_ROWS = 400 };
@@ -34,10 +37,10 @@ typedef struct run {
     bool has_earth;
 } run;
 
-static run *run_of(const char *earthshine, int threads)
+static run *run_of(const char *ground, int threads)
 {
     run *out = calloc(1, sizeof *out);
-    glint_scenario *s = scenario_of(earthshine);
+    glint_scenario *s = scenario_of(ground);
     glint_curve *curve;
     ck_assert_int_eq(glint_curve_open(s, threads, &curve, NULL), GLINT_OK);
     const glint_row *rows;
@@ -130,6 +133,140 @@ START_TEST(test_earthshine_converges_with_rings)
 }
 END_TEST
 
+/* --- through the satellite's own shadows --- */
+
+/* A white plate of 4 m x 4 m that faces the Earth, and 5 m below it a black one that reaches from
+ * cover_from_m on along x, and far on all other sides; the observer looks from the side, past both
+ * edges. It is the geostationary orbit, from which the Earth is 17 deg wide, and a forenoon. */
+#define COVER_M 5.0
+static glint_scenario *covered_plate(double cover_from_m, const char *shadows)
+{
+    static char text[2048];
+    const char *parts[N_PARTS] = {
+        [PART_TIME] = "[time]\nstart = 2025-03-20T08:00:00Z\nduration_s = 21600\nstep_s = 2700\n",
+        [PART_OBSERVER] = "[observer.direction]\nframe = \"body\"\nrange_km = 1000\n"
+                          "vector = [-0.8660254037844386, 0, 0.5]\n",
+        [PART_ORBIT] = "[orbit]\ncircular = { geostationary_longitude_deg = 0 }\n",
+        [PART_ATTITUDE] = "[attitude]\nlaw = \"nadir\"\n",
+        [PART_SETTINGS] = "[photometry]\nearthshine = { albedo = 0.3 }\n",
+        [PART_SATELLITE] = shadows,
+        [PART_MATERIAL] = "[materials.white]\nbrdf = \"lambert\"\nrho = 0.5\n"
+                          "[materials.black]\nbrdf = \"lambert\"\nrho = 0\n",
+        [PART_COMPONENT] = "[[component]]\nname = \"bus\"\n"};
+    snprintf(text, sizeof text,
+             "[[component.plate]]\nsize_m = [4, 4]\nnormal = [0, 0, 1]\ntangent = [1, 0, 0]\n"
+             "material = \"white\"\n"
+             "[[component.plate]]\nsize_m = [20, 20]\ncentre_m = [%.17g, 0, %.17g]\n"
+             "normal = [0, 0, 1]\ntangent = [1, 0, 0]\nmaterial = \"black\"\n",
+             cover_from_m + 10, COVER_M);
+    return read_with(parts, PART_PRIMITIVE, text);
+}
+
+/* Part of the white plate that light from direction `to` (body) reaches past the cover. */
+static double open_part(const double to[3], double cover_from_m)
+{
+    const double edge = cover_from_m - COVER_M * to[0] / to[2]; /* its shadow begins here */
+    return fmin(fmax((edge + 2) / 4, 0), 1);
+}
+
+/* Light of the Earth by way of the white plate, as X times irradiance over that at 1 au, summed
+ * over a mesh of the ground of a sphere: nothing of rings, centres or visibility in it. */
+static double sum_over_ground(const tile_geometry *t, int lane, const double body[9],
+                              double cover_from_m)
+{
+    enum { N = 500 };
+    double up[3], sun[3], e1[3], e2[3], total = 0;
+    const double far = unit3(t->satellite_m[lane], up) / EARTH_RADIUS_M;
+    add_scaled3(t->satellite_m[lane], t->sun_distance_m[lane], t->sun[lane], sun);
+    const double irradiance = pow(AU_M / unit3(sun, sun), 2), limb = 1 / far;
+    const double other[3] = {0.3, -0.7, 0.2}, observer[3] = {-0.8660254037844386, 0, 0.5};
+    perp3(other, up, e1);
+    cross3(up, e1, e2);
+    for (int a = 0; a < N; a++)
+        for (int b = 0; b < N; b++) {
+            const double c = 1 - (1 - limb) * (a + 0.5) / N, s = sqrt(1 - c * c);
+            const double azimuth = TWO_PI * (b + 0.5) / N;
+            double n[3], way[3], to[3];
+            for (int j = 0; j < 3; j++) {
+                n[j] = c * up[j] + s * (cos(azimuth) * e1[j] + sin(azimuth) * e2[j]);
+                way[j] = n[j] - far * up[j];
+            }
+            const double d = unit3(way, way), out = -dot3(way, n), in = dot3(n, sun);
+            if (!(in > 0 && out > 0)) continue;
+            const double patch = TWO_PI * (1 - limb) / N / N; /* of ground, radii^2 */
+            mat_vec(body, way, to);
+            if (to[2] > 0)
+                total += 0.3 / PI * in * irradiance * patch * out / (d * d) * 0.5 / PI * to[2] *
+                         observer[2] * 16 * open_part(to, cover_from_m);
+        }
+    return total;
+}
+
+/* The sum of all spans for each of the rows, by the program and by the mesh of the ground. */
+static int sums_of(glint_scenario *s, double cover_from_m, double got[TILE], double want[TILE])
+{
+    const earth_orientation still = {0, 0};
+    visibility *plan;
+    tile_worker w;
+    frame_grid *grid = NULL;
+    bool any;
+    const int n = (int)s->n_steps;
+    ck_assert_int_le(n, TILE);
+    ck_assert_int_eq(tile_plan_shadows(s, &plan, NULL), GLINT_OK);
+    ck_assert_int_eq(tile_worker_make(s, plan, &w, NULL), GLINT_OK);
+    w.geometry.viewer.observer = s->observers;
+    ck_assert_int_eq(
+        frame_grid_prepare(&s->clock, &still, 0, n * s->step_s, s->step_s, &grid, NULL), GLINT_OK);
+    ck_assert_int_eq(geometry_fill(s, grid, 0, 0, n, &w.geometry, &w.tile, w.lights, NULL),
+                     GLINT_OK);
+    ck_assert_int_eq(
+        earthshine_fill(s, plan, w.scratch, &w.geometry, &w.tile, w.lights, &w.earth, &any, NULL),
+        GLINT_OK);
+    ck_assert(any);
+    for (int k = 0; k < n; k++) {
+        double body[9];
+        mat_transpose(w.geometry.poses[k].body_component, body);
+        got[k] = 0;
+        for (int span = 0; span < s->satellite.model.n_spans; span++)
+            got[k] += w.earth.x[span * TILE + k];
+        want[k] = sum_over_ground(&w.tile, k, body, cover_from_m);
+    }
+    frame_grid_free(grid);
+    tile_worker_free(&w);
+    visibility_free(plan);
+    glint_scenario_free(s);
+    return n;
+}
+
+/* A cover past which no ground is seen leaves nothing; without shadows all is there, and one that
+ * covers nothing changes nothing. */
+START_TEST(test_earthshine_is_covered_by_the_satellites_own_parts)
+{
+    double got[TILE], want[TILE], open[TILE];
+    int n = sums_of(covered_plate(-5, ""), -5, got, want);
+    ck_assert_int_eq(n, 9);
+    for (int k = 0; k < n; k++)
+        ck_assert_msg(got[k] == 0 && want[k] == 0, "row %d: %g and %g", k, got[k], want[k]);
+    sums_of(covered_plate(-5, "[satellite]\nself_shadows = \"none\"\n"), 1e3, open, want);
+    for (int k = 0; k < n; k++)
+        assert_rel(open[k], want[k], 1e-3); /* the mesh is off by as much at the terminator */
+    sums_of(covered_plate(3, ""), 1e3, got, want);
+    for (int k = 0; k < n; k++)
+        assert_rel(got[k], open[k], 1e-14);
+}
+END_TEST
+
+/* What one direction stands for is right where the covered part changes evenly with the direction:
+ * here over all of the Earth. */
+START_TEST(test_earthshine_past_an_edge_is_that_of_its_mean_direction)
+{
+    double got[TILE], want[TILE];
+    const int n = sums_of(covered_plate(0.25, ""), 0.25, got, want);
+    for (int k = 0; k < n; k++)
+        assert_rel(got[k], want[k], 2e-3);
+}
+END_TEST
+
 START_TEST(test_earthshine_is_refused_where_directions_are_given)
 {
     static const wrong_text WRONG[] = {
@@ -150,6 +287,8 @@ int main(void)
     tcase_add_test(c, test_earthshine_follows_the_ground);
     tcase_add_test(c, test_earthshine_is_the_same_on_any_number_of_threads);
     tcase_add_test(c, test_earthshine_converges_with_rings);
+    tcase_add_test(c, test_earthshine_is_covered_by_the_satellites_own_parts);
+    tcase_add_test(c, test_earthshine_past_an_edge_is_that_of_its_mean_direction);
     tcase_add_test(c, test_earthshine_is_refused_where_directions_are_given);
     suite_add_tcase(suite, c);
     return run_suite(suite);

@@ -94,6 +94,29 @@ START_TEST(test_eop_formats_are_told_apart)
 }
 END_TEST
 
+#define FINALS_1 "16 422 57500.00 I  0.022149 0.000091  0.458767 0.000093  I-0.1219712 0.0000056\n"
+
+/* A day counts as predicted from where either of its two values is. */
+START_TEST(test_eop_either_flag_makes_a_day_a_prediction)
+{
+    static const char FLAGS[][3] = {"II", "PI", "IP", "PP"};
+    for (size_t k = 0; k < COUNT_OF(FLAGS); k++) {
+        char text[512];
+        snprintf(
+            text, sizeof text,
+            FINALS_1
+            "16 423 57501.00 %c  0.022149 0.000091  0.458767 0.000093  %c-0.1219712 0.0000056\n",
+            FLAGS[k][0], FLAGS[k][1]);
+        eop_table *t = open_table(write_bytes("flags.txt", text, strlen(text)));
+        int first, last, predicted;
+        eop_span(t, &first, &last, &predicted);
+        ck_assert_int_eq(last, 57501);
+        ck_assert_int_eq(predicted, k == 0 ? 57502 : 57501);
+        eop_free(t);
+    }
+}
+END_TEST
+
 /* Across the leap second at the end of 2016 UT1 goes on with the length of the day: 86 400 s and a
  * ms or so, while UT1-UTC jumps by 1 s. */
 START_TEST(test_eop_ut1_is_steady_across_a_leap_second)
@@ -159,7 +182,6 @@ static void assert_bad(const char *content, int line, const char *why)
 
 #define C04_1 "2016  12  28  57750   0.086769   0.264747  -0.4052887   0.0008161\n"
 #define C04_2 "2016  12  29  57751   0.084557   0.264197  -0.4060978   0.0008055\n"
-#define FINALS_1 "16 422 57500.00 I  0.022149 0.000091  0.458767 0.000093  I-0.1219712 0.0000056\n"
 
 START_TEST(test_eop_bad_files_name_line_and_reason)
 {
@@ -280,6 +302,7 @@ int main(void)
     tcase_add_checked_fixture(tc, folder_make, folder_remove);
     tcase_add_test(tc, test_eop_agrees_with_another_program);
     tcase_add_test(tc, test_eop_formats_are_told_apart);
+    tcase_add_test(tc, test_eop_either_flag_makes_a_day_a_prediction);
     tcase_add_test(tc, test_eop_ut1_is_steady_across_a_leap_second);
     tcase_add_test(tc, test_eop_in_frames_is_as_given_by_hand);
     tcase_add_test(tc, test_eop_bad_files_name_line_and_reason);

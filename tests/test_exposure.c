@@ -165,6 +165,43 @@ START_TEST(test_exposure_of_diffuse_light_is_the_integral_of_the_samples)
 }
 END_TEST
 
+/* Earthshine is averaged as sunlight is: each by itself is near its sample, from which a second of
+ * slow motion takes it by 1e-3 at most, and on top of sunlight the two add. */
+START_TEST(test_exposure_earthshine_is_averaged_apart)
+{
+    static const char EARTH[] = "[photometry]\nearthshine = { albedo = 0.3 }\n";
+    run_rows sample = run_box(20, 0, EARTH), mean = run_box(20, 2, EARTH), sun = run_box(20, 2, "");
+    for (size_t k = 0; k < sample.n; k++) {
+        const double earth = mean.rows[k].earthshine_flux_ratio[0];
+        ck_assert(earth > 0);
+        assert_rel(earth, sample.rows[k].earthshine_flux_ratio[0], 2e-3);
+        assert_rel(mean.rows[k].flux_ratio[0], sun.rows[k].flux_ratio[0] + earth, 1e-12);
+    }
+    rows_free(&sample);
+    rows_free(&mean);
+    rows_free(&sun);
+}
+END_TEST
+
+/* A mirror that never throws the Sun to the observer, who sees it lit from behind or aside. */
+START_TEST(test_exposure_without_light_is_flagged_dark)
+{
+    const char *parts[N_PARTS];
+    memcpy(parts, MIRROR, sizeof parts);
+    parts[PART_COMPONENT] = "[[component]]\nname = \"panel\"\n";
+    parts[PART_TIME] = "[time]\nstart = 2025-07-25T20:37:00Z\nduration_s = 2\nstep_s = 1\n"
+                       "exposure_s = 1\n";
+    run_rows rows = run_with(parts, PART_SETTINGS, "");
+    ck_assert_uint_eq(rows.n, 3);
+    for (size_t k = 0; k < rows.n; k++) {
+        ck_assert(rows.rows[k].flux_ratio[0] == 0);
+        ck_assert_uint_eq(rows.rows[k].flags & (GLINT_DARK | GLINT_BELOW_HORIZON | GLINT_UMBRA),
+                          GLINT_DARK);
+    }
+    rows_free(&rows);
+}
+END_TEST
+
 /* ------------------------------------------------------- sums of exposures */
 
 /* A tumbling box with gloss, foil and a hinge: two halves are the whole. */
@@ -220,9 +257,8 @@ START_TEST(test_exposure_threads_give_the_same_bits)
 {
     run_rows one = run_tumbling(2, 1);
     run_rows three = run_tumbling(2, 3);
-    const size_t width = 2 * one.n_bands + one.n_materials + one.n_components;
     ck_assert_uint_eq(one.n, three.n);
-    ck_assert_mem_eq(one.numbers, three.numbers, one.n * width * sizeof *one.numbers);
+    ck_assert_mem_eq(one.numbers, three.numbers, one.n * rows_width(&one) * sizeof *one.numbers);
     rows_free(&one);
     rows_free(&three);
 }
@@ -255,6 +291,46 @@ START_TEST(test_exposure_light_from_before_the_horizon_counts)
     ck_assert(mean.rows[1].flux_ratio[0] == 0); /* below throughout */
     rows_free(&samples);
     rows_free(&mean);
+}
+END_TEST
+
+/* Light in the first or the last thousandth of an exposure: the satellite sinks below 60 deg so
+ * soon after it begins, or next to its middle, where two parts of the integral meet. */
+START_TEST(test_exposure_light_at_its_very_ends_counts)
+{
+    static const double LIT_S[] = {0.05, 29.95, 30.05, 59.97}; /* of 60 s */
+    const char *parts[N_PARTS];
+    memcpy(parts, SOUND, sizeof parts);
+    parts[PART_OBSERVER] = "[observer]\nlatitude_deg = 48.2\nlongitude_deg = 16.37\n"
+                           "min_elevation_deg = 60\n";
+    parts[PART_ORBIT] = "[orbit]\ncircular = { height_km = 780, inclination_deg = 98.6, "
+                        "raan_deg = 80, argument_of_latitude_deg = 132, "
+                        "epoch = 2025-07-25T20:37:00Z }\n";
+    run_rows samples = run_with(parts, PART_TIME,
+                                "[time]\nstart = 2025-07-25T20:36:46Z\nduration_s = 68\n"
+                                "step_s = 0.01\n");
+    size_t last = samples.n - 1;
+    while (!(samples.rows[last].flux_ratio[0] > 0))
+        last--;
+    const double above = samples.rows[last].elevation_rad - 60 * DEG;
+    const double sunk_s = 0.01 * ((double)last + above / (samples.rows[last].elevation_rad -
+                                                          samples.rows[last + 1].elevation_rad));
+    for (int k = 0; k < 4; k++) {
+        char text[256];
+        const double middle_s = 46 + sunk_s - LIT_S[k] + 30; /* after 20:36 */
+        double sum = 0;
+        snprintf(text, sizeof text,
+                 "[time]\nstart = 2025-07-25T20:%02d:%09.6fZ\nduration_s = 0\nstep_s = 1\n"
+                 "exposure_s = 60\n",
+                 36 + (int)(middle_s / 60), fmod(middle_s, 60));
+        run_rows mean = run_with(parts, PART_TIME, text);
+        const size_t n = (size_t)(LIT_S[k] / 0.01 + 0.5), from = last + 1 - n;
+        for (size_t j = from; j <= last; j++) /* each stands for the step about it */
+            sum += samples.rows[j].flux_ratio[0] / (double)n;
+        assert_rel(mean.rows[0].flux_ratio[0], sum * LIT_S[k] / 60, 2e-4);
+        rows_free(&mean);
+    }
+    rows_free(&samples);
 }
 END_TEST
 
@@ -317,9 +393,12 @@ int main(void)
     tcase_add_test(
         all, test_exposure_of_diffuse_light_differs_from_the_sample_by_the_square_of_its_length);
     tcase_add_test(all, test_exposure_of_diffuse_light_is_the_integral_of_the_samples);
+    tcase_add_test(all, test_exposure_earthshine_is_averaged_apart);
+    tcase_add_test(all, test_exposure_without_light_is_flagged_dark);
     tcase_add_test(all, test_exposure_two_halves_are_the_whole);
     tcase_add_test(all, test_exposure_threads_give_the_same_bits);
     tcase_add_test(all, test_exposure_light_from_before_the_horizon_counts);
+    tcase_add_test(all, test_exposure_light_at_its_very_ends_counts);
     tcase_add_test(all, test_exposure_centred_below_the_horizon_is_dimmed_as_at_the_horizon);
     tcase_add_test(all, test_exposure_of_a_satellite_that_turns_too_fast_is_an_error);
     suite_add_tcase(suite, all);

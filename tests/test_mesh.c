@@ -226,8 +226,9 @@ START_TEST(test_mesh_obj_reads_what_the_format_allows)
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1 2/1 3/1 4/1\n",
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 2\nf 1//1 2//1 3//-1 4//1\n",
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\ns 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\n",
-        "mtllib a b.mtl\no thing\ng a b\nusemtl red\ns off\nv 0 0 0\nv 1 0 0\nl 1 2\np 1\nv 1 1 0\n"
-        "v 0 1 0\nf 1 2 3\nf 1 3 4\n",
+        ("mtllib a b.mtl\no thing\ng a b\nusemtl red\ns off\nv 0 0 0\nv 1 0 0\nl 1 2\np 1\nv 1 1 "
+         "0\n"
+         "v 0 1 0\nf 1 2 3\nf 1 3 4\n"),
         "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 # the end\n  ",
     };
     for (size_t k = 0; k < COUNT_OF(square); k++) {

@@ -73,8 +73,8 @@ END_TEST
 static tle set_of(double day, double anomaly_deg)
 {
     char line1[80], line2[80];
-    snprintf(line1, sizeof line1, "%.20s%012.8f%s", ISS_A1, day, ISS_A1 + 32);
-    snprintf(line2, sizeof line2, "%.43s%8.4f%s", ISS_A2, anomaly_deg, ISS_A2 + 51);
+    snprintf(line1, sizeof line1, "%.20s%012.8f%s", ISS_A1, day, &ISS_A1[32]);
+    snprintf(line2, sizeof line2, "%.43s%8.4f%s", ISS_A2, anomaly_deg, &ISS_A2[51]);
     tle out;
     glint_error error = {0};
     ck_assert_msg(tle_parse(line1, line2, false, PLACE_NONE, NULL, &out, &error) == GLINT_OK,

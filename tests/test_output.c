@@ -289,6 +289,52 @@ START_TEST(test_output_rows_are_the_cells_of_the_curve)
 }
 END_TEST
 
+/* What each column's name says is what its value is: in km, degrees and seconds of arc of the row.
+ */
+START_TEST(test_output_columns_are_in_the_units_of_their_names)
+{
+    static const double DEG_ = 180 / 3.14159265358979323846;
+    static const char MORE[] = "[photometry]\nextinction = { V = 0.15 }\n[output]\nmoon = true\n";
+    glint_scenario *s = read_with(SOUND, PART_SETTINGS, MORE);
+    glint_curve *curve = open_curve(s);
+    const glint_row *rows;
+    size_t n, n_columns, met = 0;
+    const glint_column *columns = glint_curve_columns(curve, &n_columns);
+    ck_assert_int_eq(glint_curve_next(curve, &rows, &n, NULL), GLINT_OK);
+    for (size_t k = 0; k < n; k++) {
+        const glint_row *r = &rows[k];
+        const struct {
+            const char *name;
+            double value;
+        } WANT[] = {{"t_s", r->t_s},
+                    {"mag_V", r->magnitude[0]},
+                    {"flux_ratio_V", r->flux_ratio[0]},
+                    {"range_km", r->range_m / 1000},
+                    {"phase_angle_deg", r->phase_angle_rad * DEG_},
+                    {"sunlit_fraction", r->sunlit_fraction},
+                    {"azimuth_deg", r->azimuth_rad * DEG_},
+                    {"elevation_deg", r->elevation_rad * DEG_},
+                    {"sun_elevation_deg", r->sun_elevation_rad * DEG_},
+                    {"airmass", r->airmass},
+                    {"moon_azimuth_deg", r->moon_azimuth_rad * DEG_},
+                    {"moon_elevation_deg", r->moon_elevation_rad * DEG_},
+                    {"moon_separation_deg", r->moon_separation_rad * DEG_},
+                    {"moon_illuminated", r->moon_illuminated}};
+        for (size_t i = 0; i < n_columns; i++)
+            for (size_t w = 0; w < sizeof WANT / sizeof *WANT; w++) {
+                double value;
+                if (strcmp(columns[i].name, WANT[w].name) != 0) continue;
+                ck_assert(glint_curve_value(curve, r, i, &value));
+                assert_rel(value, WANT[w].value, 1e-15);
+                met++;
+            }
+    }
+    ck_assert_uint_eq(met, 14 * n);
+    glint_curve_close(curve);
+    glint_scenario_free(s);
+}
+END_TEST
+
 /* ------------------------------------------------------------------ summary */
 
 static int by_size(const void *a, const void *b)
@@ -637,6 +683,7 @@ static Suite *output_suite(void)
     tcase_add_test(header, test_output_header_holds_the_whole_scenario);
     tcase_add_test(header, test_output_header_stays_utf8_whatever_a_file_holds);
     tcase_add_test(header, test_output_rows_are_the_cells_of_the_curve);
+    tcase_add_test(header, test_output_columns_are_in_the_units_of_their_names);
     suite_add_tcase(suite, header);
     TCase *summary = tcase_create("summary");
     tcase_set_timeout(summary, 60);

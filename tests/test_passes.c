@@ -337,7 +337,151 @@ START_TEST(test_passes_meet_the_shadow_of_the_reference)
 }
 END_TEST
 
+/* The Moon begins to cover the Sun between those rows of the other program where the gap between
+ * the rims changes its sign, and leaves it likewise: nearly where a straight line through the gaps
+ * passes 0. The chord of a curve over these 6 min, 18 min where the Moon begins, is off it by some
+ * seconds; the Moon's place, by 0.3 km. */
+START_TEST(test_passes_meet_the_shadow_of_the_moon)
+{
+    csv_table t = table_open(TEST_DATA_DIR "/orbit/moon_shadow.csv");
+    static const char TIME[] =
+        "[time]\nstart = 2025-03-29T04:00:00Z\nduration_s = 10800\nstep_s = 60\n";
+    static const char OBSERVER[] = "[observer]\nlatitude_deg = 0\nlongitude_deg = 65\n";
+    static const char ORBIT[] = "[orbit]\ncircular = { geostationary_longitude_deg = 65 }\n";
+    static const double TOLERANCE_S = 12;
+    glint_scenario *s = read_orbit_only(TIME, OBSERVER, ORBIT, "");
+    glint_passes *passes = find(s, 0, 1);
+    ck_assert_uint_eq(glint_passes_count(passes), 1);
+    const glint_pass *p = glint_passes_get(passes, 0);
+    double before_s = 0, gap_before = NAN;
+    int found = 0;
+    for (long row = 0; row < t.n_rows; row++) {
+        int hour, minute;
+        if (strncmp(table_text(&t, row, "utc"), "2025-03-29", 10) != 0) continue;
+        ck_assert_int_eq(sscanf(table_text(&t, row, "utc") + 11, "%d:%d", &hour, &minute), 2);
+        const double t_s = 3600.0 * (hour - 4) + 60.0 * minute;
+        const double gap = table_number(&t, row, "separation_deg") -
+                           table_number(&t, row, "sun_radius_deg") -
+                           table_number(&t, row, "moon_radius_deg");
+        if ((gap_before < 0 && gap > 0) || (gap_before > 0 && gap < 0)) {
+            const glint_pass_event *e =
+                event(p, gap < 0 ? GLINT_MOON_SHADOW_BEGIN : GLINT_MOON_SHADOW_END);
+            ck_assert_ptr_nonnull(e);
+            const double crossed = gap_before / (gap_before - gap);
+            assert_near(e->t_s, before_s + crossed * (t_s - before_s), TOLERANCE_S);
+            assert_near(e->sunlit_fraction, 1, 1e-9); /* as at the edges of the Earth's shadow */
+            found++;
+        }
+        before_s = t_s, gap_before = gap;
+    }
+    ck_assert_int_eq(found, 2);
+    csv_free(&t);
+    glint_passes_free(passes);
+    glint_scenario_free(s);
+}
+END_TEST
+
+/* On 8 April 2024 this satellite comes out of the Earth's shadow while the Moon covers a part of
+ * the Sun: that the Moon began to do so behind the Earth is no event, that it ends is one. */
+START_TEST(test_passes_leave_out_what_the_moon_does_behind_the_earth)
+{
+    static const char TIME[] =
+        "[time]\nstart = 2024-04-08T16:50:00Z\nduration_s = 2100\nstep_s = 60\n";
+    static const char OBSERVER[] =
+        "[observer]\nlatitude_deg = 48.2\nlongitude_deg = 16.37\nmin_elevation_deg = -90\n";
+    static const char ORBIT[] =
+        "[orbit]\ncircular = { height_km = 780, inclination_deg = 60, raan_deg = 80, "
+        "argument_of_latitude_deg = 132, epoch = 2024-04-08T12:00:00Z }\n";
+    glint_scenario *s = read_orbit_only(TIME, OBSERVER, ORBIT, "");
+    glint_passes *passes = find(s, 0, 1);
+    const glint_pass *p = glint_passes_get(passes, 0);
+    const glint_pass_event *out = event(p, GLINT_PENUMBRA_END);
+    const glint_pass_event *end = event(p, GLINT_MOON_SHADOW_END);
+    ck_assert(event(p, GLINT_UMBRA_BEGIN) && event(p, GLINT_UMBRA_END) && out && end);
+    ck_assert_ptr_null(event(p, GLINT_MOON_SHADOW_BEGIN));
+    ck_assert(out->sunlit_fraction > 0.1 && out->sunlit_fraction < 0.9);
+    ck_assert(end->t_s > out->t_s);
+    glint_passes_free(passes);
+    glint_scenario_free(s);
+}
+END_TEST
+
+/* The seconds of light and of light over a dark site are those between the events: for a satellite
+ * that stays up for days through the season of eclipses. */
+START_TEST(test_passes_seconds_of_light_lie_between_the_events)
+{
+    static const char TIME[] =
+        "[time]\nstart = 2025-03-20T12:00:00Z\nduration_s = 259200\nstep_s = 60\n";
+    static const char ORBIT[] = "[orbit]\ncircular = { geostationary_longitude_deg = 16 }\n";
+    glint_scenario *s = read_orbit_only(TIME, ISS_OBSERVER[0], ORBIT, "");
+    glint_passes *passes = find(s, 0, 1);
+    const glint_pass *p = glint_passes_get(passes, 0);
+    bool lit = true, dark = false; /* at noon of the first day */
+    double before_s = 0, lit_s = 0, both_s = 0;
+    int changes = 0;
+    for (size_t k = 0; k <= p->n_events; k++) {
+        const double t_s = k < p->n_events ? p->events[k].t_s : 259200;
+        lit_s += lit ? t_s - before_s : 0;
+        both_s += lit && dark ? t_s - before_s : 0;
+        before_s = t_s;
+        if (k == p->n_events) break;
+        const glint_event_kind kind = p->events[k].kind;
+        const bool was_lit = lit, was_dark = dark;
+        lit = kind == GLINT_UMBRA_END || (lit && kind != GLINT_UMBRA_BEGIN);
+        dark = kind == GLINT_DARKNESS_BEGIN || (dark && kind != GLINT_DARKNESS_END);
+        changes += (lit != was_lit) + (dark != was_dark);
+    }
+    ck_assert_int_eq(changes, 12); /* three nights, three eclipses */
+    assert_near(p->sunlit_s, lit_s, 1e-6);
+    assert_near(p->dark_site_s, both_s, 1e-6);
+    const char *path = in_folder("passes.txt");
+    char line[64];
+    ck_assert_int_eq(
+        glint_passes_write((const glint_passes *const *)&passes, 1, GLINT_FORMAT_TABLE, path, NULL),
+        GLINT_OK);
+    char *text = read_bytes(path, NULL);
+    snprintf(line, sizeof line, "  %7.0f  %7.0f  ", lit_s, both_s);
+    ck_assert_ptr_nonnull(strstr(text, line));
+    free(text);
+    /* an hour of umbra a night at the equinox: 67 min at the most */
+    assert_near(259200 - p->sunlit_s, 3 * 67 * 60, 3 * 3 * 60);
+    glint_passes_free(passes);
+    glint_scenario_free(s);
+}
+END_TEST
+
 /* ------------------------------------------------------------------ brightness */
+
+/* A mirror that is bent by 0.02 deg alone, so that it is none of the flat ones whose flashes are
+ * sought, on a geostationary satellite over the site: for two minutes of the day it throws the Sun
+ * there, when the Sun stands at twice its tilt of 22 deg. A white plate outshines it else, and is
+ * brightest at another time. Samples left out where little moves must not lose those minutes. */
+START_TEST(test_passes_find_a_narrow_peak_of_a_slow_satellite)
+{
+    static const char TEXT[] =
+        "[time]\nstart = 2025-09-23T00:00:00Z\nduration_s = 43200\nstep_s = 10\n"
+        "[observer]\nlatitude_deg = 0\nlongitude_deg = 10\n"
+        "[orbit]\ncircular = { geostationary_longitude_deg = 10 }\n"
+        "[attitude]\nlaw = \"nadir\"\n[photometry]\nsolar_disc = \"point\"\n"
+        "[materials.shiny]\nbrdf = \"ward-gmd\"\nrho_d = 0.02\nrho_s = 0.5\nalpha_x = 0.001\n"
+        "alpha_y = 0.001\n[materials.white]\nbrdf = \"lambert\"\nrho = 0.8\n"
+        "[[component]]\nname = \"dish\"\n[[component.dish]]\nradius_m = 1\ndepth_m = 0.0002\n"
+        "axis = [0.37460659341591203, 0, 0.9271838545667874]\nmaterial = \"shiny\"\n"
+        "[[component]]\nname = \"panel\"\n[[component.plate]]\nsize_m = [4, 4]\n"
+        "centre_m = [0, 20, 0]\nnormal = [0, 0, 1]\ntangent = [1, 0, 0]\nmaterial = \"white\"\n";
+    glint_scenario *s = read_sound(write_file("dish.toml", TEXT));
+    glint_passes *passes = find(s, 0, 1);
+    const glint_pass_event *best = event(glint_passes_get(passes, 0), GLINT_BRIGHTEST);
+    ck_assert_ptr_nonnull(best);
+    ck_assert_int_eq(best->has_magnitude, 1);
+    ck_assert_double_lt(best->magnitude, 0); /* the plate: 9.5 and fainter */
+    /* The phase angle is that between Sun and nadir; the Sun's declination, -0.1 deg, hardly adds.
+     */
+    assert_near(best->phase_angle_rad / DEG, 44, 0.03);
+    glint_passes_free(passes);
+    glint_scenario_free(s);
+}
+END_TEST
 
 /* A shiny plate in inertial attitude: its normal bisects Sun and observer at one moment. */
 static const char MIRROR[] =
@@ -749,6 +893,10 @@ int main(void)
     tcase_add_test(tc, test_passes_find_grazing_ones);
     tcase_add_test(tc, test_passes_agree_with_rows);
     tcase_add_test(tc, test_passes_meet_the_shadow_of_the_reference);
+    tcase_add_test(tc, test_passes_seconds_of_light_lie_between_the_events);
+    tcase_add_test(tc, test_passes_meet_the_shadow_of_the_moon);
+    tcase_add_test(tc, test_passes_leave_out_what_the_moon_does_behind_the_earth);
+    tcase_add_test(tc, test_passes_find_a_narrow_peak_of_a_slow_satellite);
     tcase_add_test(tc, test_passes_find_a_flash_where_it_was_put);
     tcase_add_test(tc, test_passes_find_all_flashes_of_a_turning_box);
     tcase_add_test(tc, test_passes_find_all_flashes_of_fast_slews);

@@ -50,6 +50,9 @@ t 'a pass of several days names them' 0 passes orbit.toml --set time.duration_s=
 for day in 02 03; do # the site gets light and dark on both
     [ "$(grep -c "^2024-01-$day  .* the site is" out)" = 2 ] || fail "not two notes of January $day"
 done
+t 'a culmination days after the rise is told with its date' 0 passes orbit.toml \
+    --set time.duration_s=400000 --set 'orbit={kepler={semi_major_axis_km=41000,eccentricity=0,inclination_deg=0.05,raan_deg=0,argument_of_perigee_deg=0,mean_anomaly_deg=255,j2=false}}'
+grep -q '^2024-01-0[3-5]  .* culmination$' out || fail 'the culmination has no date'
 t 'a table in a file' 0 passes orbit.toml -o table.txt
 [ ! -s out ] && [ -s table.txt ] || fail 'the file is empty, or standard output is not'
 t 'csv' 0 passes orbit.toml other.toml --format csv

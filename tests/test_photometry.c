@@ -3,6 +3,7 @@
 #include "lightcurve/noise.h"
 #include "lightcurve/photometry.h"
 #include "run_rows.h"
+#include "table.h"
 
 /* -------------------------------------------------------------------- bands */
 
@@ -52,6 +53,33 @@ START_TEST(test_photometry_photons_of_magnitude_zero_agree_with_another_calibrat
     /* the AB system needs no star: 3631 Jy / h */
     assert_rel(band_photons_m2_s(band_named("V"), SYSTEM_AB), 0.16 * 3631 * 1.50919018e7, 1e-8);
     ck_assert(isnan(band_photons_m2_s(band_named("lsst_g"), SYSTEM_AB)));
+}
+END_TEST
+
+/* The integral over ln(wavelength) of the published response, by trapezoids; its peak counts as 1.
+ * 0.4 % is half a unit of the last digit that is kept. */
+START_TEST(test_photometry_widths_of_sdss_bands_are_those_of_their_response)
+{
+    csv_table table = table_open(path_in(TEST_DATA_DIR, "sdss_response.csv"));
+    int n_bands = 0;
+    for (long row = 0, first = 0; row < table.n_rows; row++) {
+        const char *name = table_text(&table, row, "band");
+        const bool last =
+            row + 1 == table.n_rows || strcmp(table_text(&table, row + 1, "band"), name) != 0;
+        if (!last) continue;
+        double sum = 0;
+        for (long k = first; k < row; k++)
+            sum += 0.5 *
+                   (table_number(&table, k, "response") + table_number(&table, k + 1, "response")) *
+                   log(table_number(&table, k + 1, "wavelength_angstrom") /
+                       table_number(&table, k, "wavelength_angstrom"));
+        assert_rel(band_photons_m2_s(band_named(name), SYSTEM_AB),
+                   sum / table_number(&table, row, "peak") * 3631 * 1.50919018e7, 4e-3);
+        first = row + 1;
+        n_bands++;
+    }
+    ck_assert_int_eq(n_bands, 5);
+    csv_free(&table);
 }
 END_TEST
 
@@ -125,6 +153,24 @@ START_TEST(test_photometry_standard_magnitudes_of_a_diffuse_sphere_do_not_depend
     assert_near(magnitude_to_standard(1e6, PI - 1e-3, 0) - magnitude_to_standard(1e6, PI - 1e-4, 0),
                 7.5, 1e-6);
     ck_assert(!isfinite(magnitude_to_standard(1e6, PI, 0)));
+}
+END_TEST
+
+/* sin q - q cos q, q the angle from pi, is the sum of -(-1)^n 2 n q^(2n+1) / (2n+1)!, whatever the
+ * program does for small q and for large; over pi, it is the part of what a full sphere shows. */
+START_TEST(test_photometry_standard_magnitudes_near_opposition_are_the_series)
+{
+    static const double ANGLES[] = {1, 0.6, 0.45, 0.3, 0.1, 0.03, 0.021, 0.019, 0.01, 1e-3, 1e-5};
+    for (size_t k = 0; k < COUNT_OF(ANGLES); k++) {
+        const double phase = PI - ANGLES[k], q = PI - phase; /* as PI - phase rounds */
+        double term = -q, sum = 0;                           /* (-1)^(n+1) q^(2n+1) / (2n+1)! */
+        for (int n = 1; n <= 12; n++) {
+            term *= -q * q / (2 * n * (2 * n + 1));
+            sum += 2 * n * term;
+        }
+        /* at q = 0.02 the difference of sin and q cos keeps 1e-16/1e-4 */
+        assert_near(magnitude_to_standard(1e6, phase, 0), 2.5 * log10(sum / PI), 3e-12);
+    }
 }
 END_TEST
 
@@ -261,6 +307,13 @@ START_TEST(test_photometry_bright_and_faint_limits_scale_as_they_must)
     noise_of(&t, 0, &bright, &terms);
     /* scintillation alone: sqrt(1e-5) 1.5 0.5^(-2/3) */
     assert_rel(1 / noise_snr(&terms), sqrt(1e-5) * 1.5 * pow(0.5, -2.0 / 3), 1e-6);
+    /* which grows as the airmass to the power 3/2 (Osborn et al. 2015, eq. 7: variance as its cube)
+     */
+    noise_view low = bright;
+    low.airmass = 2.5;
+    noise_terms more;
+    noise_of(&t, 0, &low, &more);
+    assert_rel(more.scintillation_e, pow(2.5, 1.5) * terms.scintillation_e, 1e-14);
     /* photons alone */
     t.scintillation = 0;
     noise_terms first = terms_of(&t, 2, 1, 0), second = terms_of(&t, 4, 1, 0);
@@ -323,6 +376,26 @@ START_TEST(test_photometry_noise_of_a_row_is_that_of_the_telescope)
     assert_rel(noise_row_snr(s, rows.rows, 0),
                signal / sqrt(signal + 16 * zero * 1e-8 + 16 / 2.25 * (0.01 + 64)), 1e-12);
     rows_free(&rows);
+    glint_scenario_free(s);
+}
+END_TEST
+
+/* An exposure centred below the horizon, whose light came from above: through the air at the
+ * horizon, 37.92 by Kasten and Young's formula, whose share of the scatter is Young's 1e-5 C^2
+ * D^(-4/3) X^3 exp(-2 h/8000 m)/T. */
+START_TEST(test_photometry_light_from_the_horizon_scintillates_as_there)
+{
+    const double magnitude = -30; /* scintillation alone */
+    glint_scenario *s = read_scope(SCOPE);
+    s->telescope.scintillation = 1.5;
+    const glint_row row = {.magnitude = &magnitude,
+                           .flags = GLINT_BELOW_HORIZON,
+                           .elevation_rad = -0.1 * DEG,
+                           .has_site = true,
+                           .angular_rate_rad_s = 1 * ARCSEC};
+    const double airmass = 1 / (0.50572 * pow(6.07995, -1.6364));
+    const double variance = 2.25e-5 * pow(0.5, -4.0 / 3) * pow(airmass, 3) / 0.1;
+    assert_rel(noise_row_snr(s, &row, 0), 1 / sqrt(variance), 1e-4);
     glint_scenario_free(s);
 }
 END_TEST
@@ -428,6 +501,7 @@ int main(void)
     TCase *bands = tcase_create("bands");
     tcase_add_test(bands, test_photometry_bands_have_the_published_magnitudes_of_the_sun);
     tcase_add_test(bands, test_photometry_photons_of_magnitude_zero_agree_with_another_calibration);
+    tcase_add_test(bands, test_photometry_widths_of_sdss_bands_are_those_of_their_response);
     suite_add_tcase(suite, bands);
     TCase *airmass = tcase_create("airmass");
     tcase_add_checked_fixture(airmass, folder_make, folder_remove);
@@ -439,6 +513,7 @@ int main(void)
     tcase_add_test(
         standard,
         test_photometry_standard_magnitudes_of_a_diffuse_sphere_do_not_depend_on_the_phase);
+    tcase_add_test(standard, test_photometry_standard_magnitudes_near_opposition_are_the_series);
     tcase_add_test(standard,
                    test_photometry_columns_of_standard_magnitudes_are_named_and_without_extinction);
     suite_add_tcase(suite, standard);
@@ -449,6 +524,7 @@ int main(void)
     tcase_add_test(noise, test_photometry_scintillation_is_near_youngs_own_formula);
     tcase_add_test(noise, test_photometry_bright_and_faint_limits_scale_as_they_must);
     tcase_add_test(noise, test_photometry_noise_of_a_row_is_that_of_the_telescope);
+    tcase_add_test(noise, test_photometry_light_from_the_horizon_scintillates_as_there);
     tcase_add_test(noise, test_photometry_angular_rate_is_that_of_the_directions);
     tcase_add_test(noise, test_photometry_wrong_telescopes_are_refused_at_their_place);
     suite_add_tcase(suite, noise);

@@ -109,6 +109,62 @@ START_TEST(test_shares_magnitudes_closed_form)
 }
 END_TEST
 
+/* A plate of 1 m^2 that looks along z and one of 2 m^2 along x, Sun and observer in one direction
+ * that goes round from 10 deg off z towards x: fluxes as cos^2 and 2 sin^2 where they see it. The
+ * row at 100 deg is the brightest; of the six with light each plate has the larger part in three.
+ * Then the second plate becomes half as white. */
+START_TEST(test_shares_that_differ_from_row_to_row_closed_form)
+{
+    static const double PI_ = 3.14159265358979323846;
+    static const int LIT[6] = {0, 1, 2, 3, 6, 7};
+    static const char *const darker[] = {"same=grey"};
+    const char *parts[N_PARTS];
+    memcpy(parts, LAMBERT, sizeof parts);
+    parts[PART_TIME] = "[geometry]\nrotate = { axis = [0, -1, 0], step_deg = 45, "
+                       "sun = [0.17364817766693033, 0, 0.984807753012208], "
+                       "observer = [0.17364817766693033, 0, 0.984807753012208] }\n";
+    parts[PART_PRIMITIVE] = PLATES "[[component.plate]]\nsize_m = [1, 2]\ncentre_m = [9, 9, 0]\n"
+                                   "normal = [1, 0, 0]\ntangent = [0, 1, 0]\nmaterial = \"same\"\n";
+    const glint_changes changes = {.swaps = darker, .n_swaps = 1};
+    glint_shares *shares = find_shares(
+        write_file("scenario.toml", with_part(parts, PART_TOP, "title = \"plates\"\n").text),
+        &changes);
+    double before[6], difference[6], z_flux = 0, flux = 0;
+    for (int k = 0; k < 6; k++) {
+        const double a = (10 + 45 * LIT[k]) * PI_ / 180;
+        const double z = pow(fmax(cos(a), 0), 2), x = pow(fmax(sin(a), 0), 2);
+        before[k] = -26.76 - 2.5 * log10(0.8 * (z + 2 * x) / (PI_ * 1e12));
+        difference[k] = -2.5 * log10((z + x) / (z + 2 * x));
+        z_flux += z, flux += z + 2 * x;
+    }
+    glint_shares_total whole;
+    glint_shares_change d;
+    ck_assert(glint_shares_whole(shares, false, &whole) && glint_shares_difference(shares, &d));
+    ck_assert_int_eq(whole.bright_rows, 6);
+    assert_near(whole.magnitude_peak, before[2], 1e-12);
+    ck_assert_int_eq((int)whole.peak_t_s, 2);
+    /* in order of brightness: 100, 55, 10, 325, 145, 280 deg */
+    assert_near(whole.magnitude_median, 0.5 * (before[0] + before[5]), 1e-12);
+    assert_near(d.median, 0.5 * (difference[0] + difference[1]), 1e-12);
+    assert_near(d.at_peak, 2.5 * log10(2), 1e-12);
+    assert_near(d.peak, -2.5 * log10(1 / (2 * pow(sin(100 * PI_ / 180), 2))), 1e-12);
+    const glint_share z = share_named(shares, false, GLINT_SHARE_MATERIAL, "white");
+    assert_near(z.share_mean, z_flux / flux, 1e-14);
+    assert_near(z.share_peak, 0, 0);
+    assert_near(z.dominant_fraction, 0.5, 0);
+    /* the table for people has the same: mean, peak, percent of rows, magnitude, area */
+    const char *path = in_folder("shares.txt");
+    ck_assert_int_eq(glint_shares_write(shares, GLINT_FORMAT_TABLE, path, NULL), GLINT_OK);
+    char *text = read_bytes(path, NULL), line[128];
+    snprintf(line, sizeof line, " %8.4f %8.4f    50.0%% %8.3f %9.4g", z.share_mean, 0.0,
+             z.magnitude_mean, 1.0);
+    ck_assert_msg(strstr(text, line) != NULL, "no '%s' in %s", line, text);
+    free(text);
+    ck_assert_int_eq(z.rows, 4);
+    glint_shares_free(shares);
+}
+END_TEST
+
 /* Without the wing half of the light is lost; with grey in place of white a quarter. */
 START_TEST(test_shares_changes_closed_form)
 {
@@ -532,6 +588,7 @@ int main(void)
     tcase_add_test(numbers, test_shares_equal_columns_of_a_run);
     tcase_add_test(numbers, test_shares_same_on_any_number_of_threads);
     tcase_add_checked_fixture(changes, folder_make, folder_remove);
+    tcase_add_test(changes, test_shares_that_differ_from_row_to_row_closed_form);
     tcase_add_test(changes, test_shares_changes_closed_form);
     tcase_add_test(changes, test_shares_change_can_take_all_light);
     tcase_add_test(changes, test_shares_swap_of_identical_materials_changes_nothing);

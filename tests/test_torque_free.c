@@ -156,6 +156,23 @@ START_TEST(test_torque_free_attitude_follows_its_rates)
 }
 END_TEST
 
+/* The bound of the rate holds at every moment, and is not wide of it: it joins the largest squares
+ * of components that need not be large at once, which is a factor of sqrt(2) at most. */
+START_TEST(test_torque_free_fastest_bounds_the_rates)
+{
+    torque_free b;
+    double body[9], w[3], most = 0;
+    start_case(_i, &b, body);
+    const double fastest = torque_free_fastest(&b);
+    for (double t_s = -500; t_s <= 500; t_s += 0.1) {
+        torque_free_at(&b, t_s, body, w);
+        most = fmax(most, norm3(w));
+    }
+    ck_assert_double_le(most, fastest * (1 + 1e-12));
+    ck_assert_double_ge(most, fastest / sqrt(2) * (1 - 1e-3)); /* between moments looked at */
+}
+END_TEST
+
 START_TEST(test_torque_free_starts_where_it_is_told)
 {
     torque_free b;
@@ -246,6 +263,7 @@ int main(void)
     tcase_add_loop_test(tc, test_torque_free_keeps_energy_and_momentum_in_space, 0, N_CASES);
     tcase_add_loop_test(tc, test_torque_free_attitude_follows_its_rates, 0, N_CASES);
     tcase_add_loop_test(tc, test_torque_free_starts_where_it_is_told, 0, N_CASES);
+    tcase_add_loop_test(tc, test_torque_free_fastest_bounds_the_rates, 0, N_CASES);
     tcase_add_test(tc, test_torque_free_symmetric_top_precesses_at_l_over_i);
     tcase_add_test(tc, test_torque_free_law_refuses_impossible_bodies);
     tcase_add_test(tc, test_torque_free_law_counts_from_its_epoch);

@@ -355,6 +355,21 @@ END_TEST
 
 /* ------------------------------------------------------------------- colours */
 
+/* IEC 61966-2-1, backwards. */
+static double decode(double encoded)
+{
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/* Lightness of a colour in Oklab (Ottosson 2020): the way back from what the program computes. */
+static double colour_lightness(colour c)
+{
+    const double r = decode(c.red), g = decode(c.green), b = decode(c.blue);
+    return 0.2104542553 * cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b) +
+           0.7936177850 * cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b) -
+           0.0040720468 * cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+}
+
 /* CSS Color 4, conversion of sRGB red: oklab(0.62796 0.22486 0.12585). */
 START_TEST(test_view_colours_agree_with_css)
 {

@@ -1,6 +1,7 @@
 /* Lit and seen fractions against closed forms, rays, published cases and themselves. */
 #include "facets/visibility.h"
 
+#include "base/random.h"
 #include "shapes.h"
 #include "table.h"
 
@@ -120,18 +121,9 @@ static void direction_deg(double zenith_deg, double azimuth_deg, double out[3])
     out[0] = sin(z) * cos(a), out[1] = sin(z) * sin(a), out[2] = cos(z);
 }
 
-/* splitmix64 (Steele, Lea, Flood 2014), as a number from 0 to 1. */
-static double random_number(uint64_t *state)
-{
-    uint64_t x = *state += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
-
 static void random_direction(uint64_t *state, double out[3])
 {
-    const double z = 2.0 * random_number(state) - 1.0, a = TWO_PI * random_number(state);
+    const double z = 2.0 * random_even(state) - 1.0, a = TWO_PI * random_even(state);
     const double across = sqrt(1.0 - z * z);
     out[0] = across * cos(a), out[1] = across * sin(a), out[2] = z;
 }
@@ -329,7 +321,7 @@ static bool is_hit(const placed_facet *f, const double p[3], const double ray[3]
 /* A point spread evenly over a facet: a triangle of the fan by its area, then a point in it. */
 static void random_point(const placed_facet *f, uint64_t *state, double out[3])
 {
-    double a[3], b[3], c[3], pick = random_number(state) * f->area_m2;
+    double a[3], b[3], c[3], pick = random_even(state) * f->area_m2;
     int v = 1;
     for (;; v++) {
         sub3(f->corner[v], f->corner[0], a);
@@ -338,7 +330,7 @@ static void random_point(const placed_facet *f, uint64_t *state, double out[3])
         pick -= 0.5 * norm3(c);
         if (pick < 0 || v == f->n - 2) break;
     }
-    double u = random_number(state), w = random_number(state);
+    double u = random_even(state), w = random_even(state);
     if (u + w > 1) u = 1 - u, w = 1 - w;
     add_scaled3(f->corner[0], u, a, out);
     add_scaled3(out, w, b, out);
@@ -362,30 +354,30 @@ static double traced_fraction(const placed_facet *all, int n, int k, int rays, c
 
 static void add_random_primitive(scene *s, int component, uint64_t *state)
 {
-    const double which = random_number(state);
+    const double which = random_even(state);
     double centre[3];
     for (int j = 0; j < 3; j++)
-        centre[j] = 3.0 * (random_number(state) - 0.5);
+        centre[j] = 3.0 * (random_even(state) - 0.5);
     primitive_spec spec;
     if (which < 0.5) {
-        spec = box_shape(0.2 + 2 * random_number(state), 0.2 + random_number(state),
-                         0.2 + random_number(state));
+        spec = box_shape(0.2 + 2 * random_even(state), 0.2 + random_even(state),
+                         0.2 + random_even(state));
     } else if (which < 0.7) {
-        spec = prism_shape(7, 0.2 + 0.5 * random_number(state), 0.2 + 2 * random_number(state));
+        spec = prism_shape(7, 0.2 + 0.5 * random_even(state), 0.2 + 2 * random_even(state));
     } else if (which < 0.8) {
-        spec = sphere_shape(0.3 + 0.4 * random_number(state), 20);
+        spec = sphere_shape(0.3 + 0.4 * random_even(state), 20);
     } else {
         double normal[3], across[3];
         random_direction(state, normal);
         random_direction(state, across);
-        spec = plate_shape(0.5 + random_number(state), 0.5 + 2 * random_number(state), centre,
-                           normal, across);
+        spec = plate_shape(0.5 + random_even(state), 0.5 + 2 * random_even(state), centre, normal,
+                           across);
         if (which < 0.9) shape_material(&spec, "back_material", 1);
     }
     shape_set(&spec, "centre_m", centre, 3);
     random_direction(state, spec.rotation_axis);
     spec.has_rotation = true;
-    spec.rotation_rad = TWO_PI * random_number(state);
+    spec.rotation_rad = TWO_PI * random_even(state);
     shape_add(&spec, component, &s->facets);
 }
 
@@ -405,8 +397,8 @@ static scene *random_scene(uint64_t seed)
         part->parent = c - 1;
         part->moves = c > 0;
         random_direction(&state, part->axis);
-        mat_turn(part->axis, TWO_PI * random_number(&state), turn[c][0]);
-        mat_turn(part->axis, TWO_PI * random_number(&state), turn[c][1]);
+        mat_turn(part->axis, TWO_PI * random_even(&state), turn[c][0]);
+        mat_turn(part->axis, TWO_PI * random_even(&state), turn[c][1]);
         if (c == 0) mat_identity(turn[c][0]), mat_identity(turn[c][1]);
     }
     visibility_pose later[3];
@@ -687,16 +679,16 @@ START_TEST(test_visibility_roof_of_strips_leaves_nothing)
     uint64_t state = 5;
     for (int trial = 0; trial < TRIALS; trial++) {
         const bool closed = trial % 2 == 0;
-        const double turn_rad = TWO_PI * random_number(&state);
+        const double turn_rad = TWO_PI * random_even(&state);
         const double x[3] = {cos(turn_rad), sin(turn_rad), 0}, y[3] = {-x[1], x[0], 0};
-        const double tilt = 0.5 * random_number(&state);
+        const double tilt = 0.5 * random_even(&state);
         double towards[3];
         add_scaled3(z_axis, tilt, y, towards);
         scene *s = scene_new();
         primitive_spec floor_spec = plate_shape(3, 1, (double[3]){0, 0, 0}, z_axis, x);
         shape_add(&floor_spec, 0, &s->facets);
         for (int k = 0; k < STRIPS; k++) {
-            double centre[3] = {0, 0, 1 + random_number(&state)};
+            double centre[3] = {0, 0, 1 + random_even(&state)};
             if (!closed && k == STRIPS / 2) continue;
             add_scaled3(centre, (k - 4) / 3.0, x, centre);
             primitive_spec strip = plate_shape(1 / 3.0, 9, centre, z_axis, x);

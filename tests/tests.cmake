@@ -78,6 +78,19 @@ set_tests_properties(install PROPERTIES ENVIRONMENT "CMAKE_GENERATOR=${CMAKE_GEN
 # The order in which the folders of src/ may include each other.
 add_test(NAME rooms COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_rooms.sh ${PROJECT_SOURCE_DIR})
 
+# What the library shows to the programs that it is linked into; 77: no nm.
+if(BUILD_SHARED_LIBS)
+    set(GLINT_FORM shared)
+elseif(GLINT_CAN_PRELINK)
+    set(GLINT_FORM static)
+else()
+    set(GLINT_FORM open)
+endif()
+add_test(NAME symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_symbols.sh "${CMAKE_NM}"
+    ${CMAKE_C_COMPILER} ${PROJECT_SOURCE_DIR}/include/glint/glint.h ${GLINT_FORM} $<TARGET_FILE:glint>
+    $<TARGET_FILE:glint_inside> ${PROJECT_SOURCE_DIR}/cmake/glint.map)
+set_tests_properties(symbols PROPERTIES SKIP_RETURN_CODE 77)
+
 # Every scenario that ships.
 add_test(NAME scenarios COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_scenarios.sh
     $<TARGET_FILE:glint_program> ${PROJECT_SOURCE_DIR}/scenarios)
@@ -133,12 +146,19 @@ if(GLINT_PYTHON)
     # Ephemerides and passes against sgp4, Skyfield and ERFA for Python.
     add_test(NAME astronomy COMMAND ${GLINT_PYTHON}
         ${CMAKE_CURRENT_SOURCE_DIR}/test_astronomy.py $<TARGET_FILE:glint_program>)
+    # Earthshine and magnitudes of whole runs against sums by numpy.
+    add_test(NAME light COMMAND ${GLINT_PYTHON}
+        ${CMAKE_CURRENT_SOURCE_DIR}/test_light.py $<TARGET_FILE:glint_program>)
 else()
+    add_test(NAME probe_mesh COMMAND sh -c
+        "echo 'SKIPPED: the mesh that ships against its script: no python3'; exit 77")
     add_test(NAME ecsv COMMAND sh -c "echo 'SKIPPED: tables read by astropy: no python3'; exit 77")
     add_test(NAME astronomy COMMAND sh -c
         "echo 'SKIPPED: ephemerides against other programs: no python3'; exit 77")
+    add_test(NAME light COMMAND sh -c
+        "echo 'SKIPPED: light against sums by numpy: no python3'; exit 77")
 endif()
-set_tests_properties(ecsv astronomy PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(probe_mesh ecsv astronomy light PROPERTIES SKIP_RETURN_CODE 77)
 
 # Against the sky, and against another study of it; formulas written down a second time. 77: the
 # reference data are not there.

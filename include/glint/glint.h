@@ -235,6 +235,8 @@ typedef enum glint_event_kind {
     GLINT_PENUMBRA_END,   /* all of it */
     GLINT_PENUMBRA_BEGIN, /* no longer all of it */
     GLINT_UMBRA_BEGIN,    /* nothing of it */
+    GLINT_MOON_SHADOW_BEGIN, /* the Moon begins to cover what is seen of it */
+    GLINT_MOON_SHADOW_END,   /* the Moon leaves it */
     GLINT_DARKNESS_BEGIN, /* the Sun sets below sun_elevation_max_deg at the site */
     GLINT_DARKNESS_END,
     GLINT_BRIGHTEST, /* smallest magnitude in the first band */

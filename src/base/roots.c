@@ -119,7 +119,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-void root_list_sort(root_list *list)
+static void sort(root_list *list)
 {
     if (list->n > 1) qsort(list->items, list->n, sizeof *list->items, ascending);
 }
@@ -189,6 +189,6 @@ glint_status roots_between(root_function *f, void *context, double a, double b, 
         if (status) return status;
     }
     root_list found = {out->items + first, out->n - first, 0};
-    root_list_sort(&found);
+    sort(&found);
     return GLINT_OK;
 }

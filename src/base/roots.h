@@ -28,8 +28,6 @@ typedef struct root_list {
 void root_list_free(root_list *list);
 /* Errors: GLINT_INTERNAL (memory). */
 glint_status root_list_add(root_list *list, double x, glint_error *error);
-/* Puts the items into ascending order. */
-void root_list_sort(root_list *list);
 
 /* Appends all zeros from a to b in ascending order. f is looked at on a grid of the given number of
  * steps, which goes on for one step beyond both ends. Where it comes nearest to zero without a

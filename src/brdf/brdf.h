@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "base/param.h"
 
+#include <stdint.h>
+
 #define BRDF_EDGE 1e-12 /* cosine below which a facet is edge-on (physics page, section 6) */
 
 enum {
@@ -18,12 +20,32 @@ enum {
     BRDF_MAX_COEF = 24    /* numbers that a prepared model keeps */
 };
 
+/* What a watch looks at, each with all before it. */
+typedef enum brdf_watch_kind {
+    BRDF_WATCH_SOURCE, /* |ci| < low: the source is about to set */
+    BRDF_WATCH_LOBE,   /* H.n > near: the bisector is near the normal */
+    BRDF_WATCH_WINGS   /* |ci| + cr < graze: it is near the facet's plane */
+} brdf_watch_kind;
+
+/* Samples that the kernel shows to its caller before it adds them: those are rare, and the kernel
+ * has their cosines at hand, good to 1e-15. A sample is shown where cr > BRDF_EDGE and one of the
+ * above holds with the limits of its lane. */
+typedef struct brdf_watch {
+    brdf_watch_kind kind;
+    _Alignas(64) double low[BRDF_TILE], near[BRDF_TILE], graze[BRDF_TILE];
+    void *finder; /* for `found`; borrowed */
+    /* Told of a facet and its lanes, bit k for lane k. Returns those among them that the caller has
+     * seen to: the kernel leaves them out. */
+    uint32_t (*found)(void *finder, int facet, uint32_t lanes);
+} brdf_watch;
+
 /* Facets of one material in one component: structure of arrays, component coordinates.
  * All arrays have n entries; borrowed. */
 typedef struct brdf_facets {
     int n;
     const double *normal[3], *tangent[3], *bitangent[3]; /* unit, orthogonal, right-handed */
     const double *area;                                  /* m^2 */
+    const brdf_watch *watch;                             /* borrowed; NULL: none */
 } brdf_facets;
 
 /* BRDF_TILE pairs of directions in the component's frame, all of them usable numbers (spare lanes

@@ -18,6 +18,7 @@
  *
  * Beyond the end of a scan its last value holds, and beyond the outermost lines those lines do. */
 #include "base/constants.h"
+#include "base/sorted.h"
 #include "brdf/monotone.h"
 #include "brdf/table_parts.h"
 
@@ -46,14 +47,9 @@ static const double HELD_LINE = 8.0, HELD_END = 32.0;
  * lies; x is taken to lie between numbers low and high. */
 static int find_interval(const double *ascending, int low, int high, int stride, double x)
 {
-    while (high - low > 1) {
-        const int middle = (low + high) / 2;
-        if (ascending[(size_t)middle * (size_t)stride] <= x)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    const double *first = ascending + (size_t)low * (size_t)stride;
+    const size_t n = (size_t)(high - low) + 1, bytes = (size_t)stride * sizeof *first;
+    return low + (int)sorted_interval(first, n, bytes, x);
 }
 
 /* ln f where a line has this theta_h, and HELD_END times how far (in theta_h) that lies past the

@@ -33,18 +33,38 @@
 #define BRDF_CLONES CLONES
 #endif
 
-/* The cosines of a tile's directions to facet f; false when none of the pairs is on its front. */
-static inline bool tile_cosines(const brdf_facets *facets, int f, const brdf_light *light,
-                                double ci[BRDF_TILE], double cr[BRDF_TILE])
+/* In place of the kind of a watch: there is none. */
+#define WATCH_NOTHING (-1)
+
+/* What tile_cosines tells of a facet: bit k, that lane k is one to show; and this one, that some
+ * pair is on its front. */
+#define TILE_LIT ((int64_t)1 << BRDF_TILE)
+
+#define TILE_BITS(k) 1ll << (k), 2ll << (k), 4ll << (k), 8ll << (k)
+/* In a table, as compilers do not put shifts by a counter into vector code. */
+static const int64_t TILE_BIT[BRDF_TILE] = {TILE_BITS(0),  TILE_BITS(4),  TILE_BITS(8),
+                                            TILE_BITS(12), TILE_BITS(16), TILE_BITS(20),
+                                            TILE_BITS(24), TILE_BITS(28)};
+
+/* The cosines of a tile's directions to facet f, and what they mean. kind: of facets->watch, known
+ * to the compiler. */
+static inline int64_t tile_cosines(const brdf_facets *facets, int f, const brdf_light *light,
+                                   int kind, double ci[BRDF_TILE], double cr[BRDF_TILE])
 {
     const double n0 = facets->normal[0][f], n1 = facets->normal[1][f], n2 = facets->normal[2][f];
-    int64_t any = 0; /* as wide as a double, so that it fits the vectors */
+    const brdf_watch *const watch = facets->watch;
+    int64_t seen = 0;
     for (int k = 0; k < BRDF_TILE; k++) {
         ci[k] = n0 * light->i[0][k] + n1 * light->i[1][k] + n2 * light->i[2][k];
         cr[k] = n0 * light->r[0][k] + n1 * light->r[1][k] + n2 * light->r[2][k];
-        any |= -(int64_t)(ci[k] > BRDF_EDGE) & -(int64_t)(cr[k] > BRDF_EDGE);
+        int64_t here = ci[k] > BRDF_EDGE ? TILE_LIT : 0;
+        if (kind >= BRDF_WATCH_SOURCE) here |= fabs(ci[k]) < watch->low[k] ? TILE_BIT[k] : 0;
+        if (kind >= BRDF_WATCH_LOBE) here |= ci[k] + cr[k] > watch->near[k] ? TILE_BIT[k] : 0;
+        if (kind >= BRDF_WATCH_WINGS)
+            here |= fabs(ci[k]) + cr[k] < watch->graze[k] ? TILE_BIT[k] : 0;
+        seen |= cr[k] > BRDF_EDGE ? here : 0;
     }
-    return any != 0;
+    return seen;
 }
 
 #endif
@@ -92,6 +112,27 @@ static inline void brdf_tile_add(const double *coef, const brdf_facets *facets, 
     }
 }
 
+/* Adds all facets to the lanes' totals. kind: as above. */
+static inline void brdf_tile_run(const double *coef, double weight, const brdf_facets *facets,
+                                 const brdf_light *light, const double *visible, int kind,
+                                 double total[BRDF_TILE])
+{
+    _Alignas(64) double ci[BRDF_TILE], cr[BRDF_TILE], scale[BRDF_TILE];
+    for (int f = 0; f < facets->n; f++) {
+        const int64_t seen = tile_cosines(facets, f, light, kind, ci, cr);
+        const uint32_t shown = kind == WATCH_NOTHING ? 0 : (uint32_t)seen;
+        const int64_t taken = shown ? facets->watch->found(facets->watch->finder, f, shown) : 0;
+        if (!(seen & TILE_LIT)) continue;
+        const double *part = visible ? visible + (size_t)f * BRDF_TILE : NULL;
+        const double area = weight * facets->area[f];
+        for (int k = 0; k < BRDF_TILE; k++)
+            scale[k] = part ? area * part[k] : area;
+        for (int k = 0; k < BRDF_TILE && taken; k++)
+            scale[k] = taken & TILE_BIT[k] ? 0.0 : scale[k];
+        brdf_tile_add(coef, facets, f, light, ci, cr, scale, total);
+    }
+}
+
 BRDF_CLONES FLATTEN static void brdf_tile(const double *coef, double weight,
                                           const brdf_facets *facets, const brdf_light *light,
                                           const double *visible, double sum[BRDF_TILE])
@@ -102,14 +143,19 @@ BRDF_CLONES FLATTEN static void brdf_tile(const double *coef, double weight,
     double c[BRDF_MAX_COEF]; /* a copy that nothing else can point at */
     memcpy(c, coef, sizeof c);
 #endif
-    _Alignas(64) double ci[BRDF_TILE], cr[BRDF_TILE], scale[BRDF_TILE], total[BRDF_TILE] = {0};
-    for (int f = 0; f < facets->n; f++) {
-        if (!tile_cosines(facets, f, light, ci, cr)) continue;
-        const double *part = visible ? visible + (size_t)f * BRDF_TILE : NULL;
-        const double area = weight * facets->area[f];
-        for (int k = 0; k < BRDF_TILE; k++)
-            scale[k] = part ? area * part[k] : area;
-        brdf_tile_add(c, facets, f, light, ci, cr, scale, total);
+    _Alignas(64) double total[BRDF_TILE] = {0};
+    switch (facets->watch ? (int)facets->watch->kind : WATCH_NOTHING) {
+    case BRDF_WATCH_SOURCE:
+        brdf_tile_run(c, weight, facets, light, visible, BRDF_WATCH_SOURCE, total);
+        break;
+    case BRDF_WATCH_LOBE:
+        brdf_tile_run(c, weight, facets, light, visible, BRDF_WATCH_LOBE, total);
+        break;
+    case BRDF_WATCH_WINGS:
+        brdf_tile_run(c, weight, facets, light, visible, BRDF_WATCH_WINGS, total);
+        break;
+    default:
+        brdf_tile_run(c, weight, facets, light, visible, WATCH_NOTHING, total);
     }
     for (int k = 0; k < BRDF_TILE; k++)
         sum[k] += total[k];

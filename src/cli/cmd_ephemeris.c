@@ -2,14 +2,6 @@
 #include "cli/output.h"
 #include "cli/report.h"
 
-#include <string.h>
-
-static glint_format format_of(const options *o)
-{
-    if (!o->format || strcmp(o->format, "csv") == 0) return GLINT_FORMAT_CSV;
-    return strcmp(o->format, "json") == 0 ? GLINT_FORMAT_JSON : GLINT_FORMAT_TABLE;
-}
-
 static glint_status write_ephemeris(const glint_scenario *scenario, const options *o)
 {
     glint_ephemeris *ephemeris = NULL;
@@ -18,13 +10,11 @@ static glint_status write_ephemeris(const glint_scenario *scenario, const option
     const bool drawn = progress_wanted(o->quiet, o->output != NULL);
     glint_status status = glint_ephemeris_open(scenario, o->threads, &ephemeris, &error);
     if (status == GLINT_OK)
-        status = glint_ephemeris_write(ephemeris, format_of(o), o->output,
+        status = glint_ephemeris_write(ephemeris, options_format(o, GLINT_FORMAT_CSV), o->output,
                                        drawn ? progress_draw : NULL, &bar, &error);
     progress_end(&bar);
     glint_ephemeris_close(ephemeris);
-    if (status == GLINT_OUTPUT && !o->output && output_reader_left()) return status;
-    if (status) report_error(&error);
-    return status;
+    return status ? output_fail(o->output, &error) : GLINT_OK;
 }
 
 glint_status cmd_ephemeris(const options *o)

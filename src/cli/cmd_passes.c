@@ -3,7 +3,6 @@
 #include "cli/report.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static const double RAD_PER_DEG = 0.017453292519943295;
 
@@ -55,40 +54,27 @@ static glint_status find_all(const options *o, double flash_angle, found *f, gli
     return GLINT_OK;
 }
 
-static glint_format format_of(const options *o)
-{
-    if (!o->format || strcmp(o->format, "table") == 0) return GLINT_FORMAT_TABLE;
-    return strcmp(o->format, "csv") == 0 ? GLINT_FORMAT_CSV : GLINT_FORMAT_JSON;
-}
-
-/* Reports an error of this program's, or of the output, unless the reader of a pipe has left. */
-static glint_status fail(const options *o, const glint_error *error)
-{
-    if (error->status != GLINT_OUTPUT || o->output || !output_reader_left()) report_error(error);
-    return error->status;
-}
-
 glint_status cmd_passes(const options *o)
 {
     glint_error error = {0};
     double flash_angle_deg = 1;
     if (options_number(o, OPTION_FLASH_ANGLE, GLINT_FLASH_ANGLE_MIN_DEG, GLINT_FLASH_ANGLE_MAX_DEG,
                        &flash_angle_deg, &error))
-        return fail(o, &error);
+        return output_fail(o->output, &error);
     found f = {calloc(o->n_operands, sizeof(glint_scenario *)),
                calloc(o->n_operands, sizeof(glint_passes *)), o->n_operands};
     glint_status status = GLINT_OK;
     if (!f.scenarios || !f.passes) {
         error_say(&error, GLINT_INTERNAL, "out of memory");
-        status = fail(o, &error);
+        status = output_fail(o->output, &error);
     }
     if (status == GLINT_OK) status = read_all(o, &f);
     if (status == GLINT_OK) {
         status = find_all(o, flash_angle_deg * RAD_PER_DEG, &f, &error);
         if (status == GLINT_OK)
-            status = glint_passes_write((const glint_passes *const *)f.passes, f.n, format_of(o),
-                                        o->output, &error);
-        if (status) fail(o, &error);
+            status = glint_passes_write((const glint_passes *const *)f.passes, f.n,
+                                        options_format(o, GLINT_FORMAT_TABLE), o->output, &error);
+        if (status) output_fail(o->output, &error);
     }
     found_free(&f);
     return status;

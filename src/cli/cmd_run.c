@@ -25,9 +25,8 @@ static glint_status write_table(glint_curve *curve, const options *o)
     const glint_status status = glint_table_write(curve, o->output, o->plot, &summary,
                                                   drawn ? progress_draw : NULL, &bar, &error);
     progress_end(&bar);
-    if (status == GLINT_OUTPUT && !o->output && output_reader_left()) return status;
-    if (status) report_error(&error);
-    if (status || o->quiet) return status;
+    if (status) return output_fail(o->output, &error);
+    if (o->quiet) return GLINT_OK;
     report_summary(&summary);
     report_unmeasured(curve, &summary);
     return status;

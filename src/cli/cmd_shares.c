@@ -2,14 +2,6 @@
 #include "cli/output.h"
 #include "cli/report.h"
 
-#include <string.h>
-
-static glint_format format_of(const options *o)
-{
-    if (!o->format || strcmp(o->format, "table") == 0) return GLINT_FORMAT_TABLE;
-    return strcmp(o->format, "csv") == 0 ? GLINT_FORMAT_CSV : GLINT_FORMAT_JSON;
-}
-
 static glint_status find(const options *o, glint_shares **out)
 {
     const glint_changes changes = {o->swaps, o->n_swaps, o->without, o->n_without};
@@ -37,10 +29,10 @@ glint_status cmd_shares(const options *o)
     if (status) return status;
     status = output_check(glint_shares_scenario(shares, false), o->output, &error);
     if (!status) status = output_check(glint_shares_scenario(shares, false), o->plot, &error);
-    if (!status) status = glint_shares_write(shares, format_of(o), o->output, &error);
+    if (!status)
+        status =
+            glint_shares_write(shares, options_format(o, GLINT_FORMAT_TABLE), o->output, &error);
     if (!status && o->plot) status = glint_shares_plot(shares, o->threads, o->plot, &error);
     glint_shares_free(shares);
-    if (status == GLINT_OUTPUT && !o->output && output_reader_left()) return status;
-    if (status) report_error(&error);
-    return status;
+    return status ? output_fail(o->output, &error) : GLINT_OK;
 }

@@ -344,3 +344,10 @@ glint_status options_word(const options *o, option_id id, const char *const *wor
     return error_say(error, GLINT_ARGUMENT, "--%s has '%s'; expected one of: %s", table[id].name,
                      o->values[id], known);
 }
+
+glint_format options_format(const options *o, glint_format otherwise)
+{
+    if (!o->format) return otherwise;
+    if (strcmp(o->format, "csv") == 0) return GLINT_FORMAT_CSV;
+    return strcmp(o->format, "json") == 0 ? GLINT_FORMAT_JSON : GLINT_FORMAT_TABLE;
+}

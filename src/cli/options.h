@@ -107,6 +107,8 @@ glint_status options_vector(const options *o, option_id id, const char *expected
  * *out is left alone where it was not given. Errors: GLINT_ARGUMENT. */
 glint_status options_word(const options *o, option_id id, const char *const *words, int *out,
                           glint_error *error);
+/* The format of tables that --format names; `otherwise` where it was not given. */
+glint_format options_format(const options *o, glint_format otherwise);
 /* True when that option stood on the line. */
 static inline bool options_has(const options *o, option_id id)
 {

@@ -73,3 +73,9 @@ bool output_reader_left(void)
     struct pollfd end = {STDOUT_FILENO, POLLOUT, 0};
     return poll(&end, 1, 0) > 0 && (end.revents & (POLLERR | POLLHUP));
 }
+
+glint_status output_fail(const char *path, const glint_error *error)
+{
+    if (error->status != GLINT_OUTPUT || path || !output_reader_left()) report_error(error);
+    return error->status;
+}

@@ -27,13 +27,17 @@ glint_status output_finish(output *o, glint_error *error);
  * GLINT_OUTPUT. */
 glint_status output_check(const glint_scenario *scenario, const char *path, glint_error *error);
 
-/* Whether a picture can be drawn, and goes to another file than the table. plot: NULL: none. Errors:
- * GLINT_ARGUMENT; those of glint_plot_check. */
+/* Whether a picture can be drawn, and goes to another file than the table. plot: NULL: none.
+ * Errors: GLINT_ARGUMENT; those of glint_plot_check. */
 glint_status output_check_plot(const char *table, const char *plot, glint_error *error);
 
 /* Flushes and closes stdout. *reader_left: as output_reader_left says before that. Errors:
  * GLINT_OUTPUT. */
 glint_status output_close_stdout(bool *reader_left, glint_error *error);
+
+/* Reports an error of a command that writes to `path` (NULL: standard output), unless it is that
+ * the reader of a pipe has left; returns its status. */
+glint_status output_fail(const char *path, const glint_error *error);
 
 /* True when stdout is a pipe that nobody reads any more (`glint run ... | head`). */
 bool output_reader_left(void);

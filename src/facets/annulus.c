@@ -18,41 +18,16 @@ enum {
 };
 
 static const primitive_key keys[N_KEYS] = {
-    [RADIUS] = {.name = "radius_m",
-                .unit = "m",
-                .doc = "radius outside; corners of the facets lie on it",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
-    [INNER_RADIUS] = {.name = "inner_radius_m",
-                      .unit = "m",
-                      .doc = "radius of the hole; corners of the facets lie on it",
-                      .kind = KEY_NUMBER,
-                      .required = true,
-                      LENGTH_RANGE},
+    [RADIUS] = LENGTH_KEY("radius_m", "radius outside; corners of the facets lie on it"),
+    [INNER_RADIUS] =
+        LENGTH_KEY("inner_radius_m", "radius of the hole; corners of the facets lie on it"),
     [SIDES] = SIDES_KEY,
     [TOLERANCE] = TOLERANCE_KEY,
     [CENTRE] = CENTRE_KEY,
-    [NORMAL] = {.name = "normal",
-                .unit = "",
-                .doc = "direction in which the front looks",
-                .kind = KEY_DIRECTION,
-                .required = true},
-    [TANGENT] =
-        {.name = "tangent",
-         .unit = "",
-         .doc = "direction of the first corner, made orthogonal to the normal; absent: x or y, "
-                "whichever is less along the normal",
-         .kind = KEY_DIRECTION},
-    [MATERIAL] = {.name = "material",
-                  .unit = "",
-                  .doc = "material of the front",
-                  .kind = KEY_MATERIAL,
-                  .required = true},
-    [BACK_MATERIAL] = {.name = "back_material",
-                       .unit = "",
-                       .doc = "material of the back; absent: black, but it still casts shadows",
-                       .kind = KEY_MATERIAL},
+    [NORMAL] = NORMAL_KEY("direction in which the front looks"),
+    [TANGENT] = CORNER_KEY,
+    [MATERIAL] = MATERIAL_KEY("material of the front"),
+    [BACK_MATERIAL] = BACK_MATERIAL_KEY("material of the back"),
 };
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
@@ -65,20 +40,8 @@ static glint_status check(const primitive_spec *spec, glint_errors *errors)
                             "inner_radius_m is %.10g and radius_m %.10g; expected a hole smaller "
                             "than the disc",
                             inner_m, outer_m);
-    if (spec->given[TANGENT] && primitive_key_sound(spec, NORMAL) &&
-        primitive_key_sound(spec, TANGENT) &&
-        primitive_parallel(spec->value[NORMAL], spec->value[TANGENT]))
-        status = errors_add(errors, GLINT_INPUT, spec->key_place[TANGENT],
-                            "tangent is along the normal; expected a direction across it");
-    return status;
-}
-
-/* The normal, and the direction of the first corner: the tangent, or else x or y as about an axis.
- */
-static void directions(const primitive_spec *spec, double normal[3], double first[3])
-{
-    revolved_axes(spec->value[NORMAL], normal, first);
-    if (spec->given[TANGENT]) perp3(spec->value[TANGENT], normal, first);
+    const glint_status across = check_tangent_key(spec, NORMAL, TANGENT, errors);
+    return across ? across : status;
 }
 
 /* A trapezoid from corner k to the next. */
@@ -100,7 +63,7 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     (void)warnings;
     const int n = sides_of(spec, SIDES, TOLERANCE, spec->value[RADIUS][0]);
     double normal[3], first[3];
-    directions(spec, normal, first);
+    disc_axes(spec, NORMAL, TANGENT, normal, first);
     double(*outer)[3] = malloc(2 * (size_t)n * sizeof *outer);
     if (!outer) return error_no_memory(error);
     double(*inner)[3] = outer + n;
@@ -113,11 +76,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     return status;
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
-}
-
 const primitive_kind primitive_annulus = {
     .name = "annulus",
     .doc = "flat ring of trapezoids; reflects in front, and behind where back_material is given. "
@@ -126,5 +84,5 @@ const primitive_kind primitive_annulus = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

@@ -89,11 +89,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     return status;
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
-}
-
 const primitive_kind primitive_box = {
     .name = "box",
     .doc = "rectangular box along the axes; tangents: y on the x faces, x on the others",
@@ -101,5 +96,5 @@ const primitive_kind primitive_box = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

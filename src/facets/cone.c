@@ -18,50 +18,22 @@ enum {
 };
 
 static const primitive_key keys[N_KEYS] = {
-    [RADIUS] = {.name = "radius_m",
-                .unit = "m",
-                .doc = "radius of the base; the corners of the facets lie on it",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
+    [RADIUS] = LENGTH_KEY("radius_m", "radius of the base; the corners of the facets lie on it"),
     [TOP_RADIUS] = {.name = "top_radius_m",
                     .unit = "m",
                     .doc = "radius of the other end; 0: a point",
                     .kind = KEY_NUMBER,
                     .min = 0,
                     .max = LENGTH_MAX_M},
-    [LENGTH] = {.name = "length_m",
-                .unit = "m",
-                .doc = "length along the axis",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
+    [LENGTH] = LENGTH_KEY("length_m", "length along the axis"),
     [SIDES] = SIDES_KEY,
     [TOLERANCE] = TOLERANCE_KEY,
     [CENTRE] = CENTRE_KEY,
-    [AXIS] = {.name = "axis",
-              .unit = "",
-              .doc = "direction from the base to the other end",
-              .kind = KEY_DIRECTION,
-              .def = {0, 0, 1}},
-    [MATERIAL] = {.name = "material",
-                  .unit = "",
-                  .doc = "material of the side",
-                  .kind = KEY_MATERIAL,
-                  .required = true},
-    [CAP_MATERIAL] = {.name = "cap_material",
-                      .unit = "",
-                      .doc = "material of the caps; absent: that of the sides",
-                      .kind = KEY_MATERIAL},
-    [INSIDE_MATERIAL] = {.name = "inside_material",
-                         .unit = "",
-                         .doc = "material of the inside of an open one; absent: black",
-                         .kind = KEY_MATERIAL},
-    [OPEN] = {.name = "open",
-              .unit = "",
-              .doc = "true leaves the caps out",
-              .kind = KEY_SWITCH,
-              .max = 1},
+    [AXIS] = AXIS_KEY("direction from the base to the other end"),
+    [MATERIAL] = MATERIAL_KEY("material of the side"),
+    [CAP_MATERIAL] = CAP_MATERIAL_KEY,
+    [INSIDE_MATERIAL] = INSIDE_MATERIAL_KEY,
+    [OPEN] = OPEN_KEY,
 };
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
@@ -97,11 +69,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     return frustum_build(&cone, component, out, error);
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
-}
-
 const primitive_kind primitive_cone = {
     .name = "cone",
     .doc =
@@ -111,5 +78,5 @@ const primitive_kind primitive_cone = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

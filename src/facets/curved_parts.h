@@ -19,8 +19,8 @@
  * perfect mirror is found with pieces of 1.6 of these. */
 #define CURVED_MIRROR_WIDTH 5e-5
 
-/* One lobe of a material on the facets of a span in one tile: the user sets the first lines and the
- * batch's material, the rest zero. */
+/* One lobe of a material on the facets of a span in one tile: the user sets the first lines, the
+ * rest is zero. */
 typedef struct curved_tile {
     const curved_span *span;
     const curved_lobe *lobe;
@@ -28,7 +28,7 @@ typedef struct curved_tile {
     const brdf_facets *facets;
     const brdf_light *light;
     const source_disc *disc; /* NULL: the source is a point */
-    batch batch;
+    batch *batch;            /* for its pairs; with the material */
     spread bisectors;
     double widest, longest_reach; /* of the lobe: width, rad; reach in any lane, in widths */
     double longest_disc;          /* of the disc, in widths */

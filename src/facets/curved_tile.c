@@ -158,7 +158,8 @@ static void push_arc(const scene *s, const curved_piece *p, double lo, double hi
         turn_back(p, u, s->i, i);
         turn_back(p, u, s->r, r);
         if (s->disc)
-            disc_push(s->batch, s->disc, i, r, s->part * p->area_m2 * part);
+            disc_push(s->batch, s->disc, disc_rule_of(s->disc, i, r), i, r,
+                      s->part * p->area_m2 * part);
         else
             batch_push(s->batch, s->lane, i, r, 0.0, 0.0, s->part * p->area_m2 * part);
     }
@@ -286,7 +287,7 @@ static void widen_by_disc(const curved_tile *t, int lane, scene *s)
 
 static void add_pieces(curved_tile *t, int k, int lane, const double frame[9], double part)
 {
-    scene s = {.batch = &t->batch,
+    scene s = {.batch = t->batch,
                .lane = lane,
                .width = {t->lobe->width[0], t->lobe->width[1]},
                .narrow = {1.0 / t->lobe->width[0], 1.0 / t->lobe->width[1]},

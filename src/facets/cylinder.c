@@ -17,44 +17,16 @@ enum {
 };
 
 static const primitive_key keys[N_KEYS] = {
-    [RADIUS] = {.name = "radius_m",
-                .unit = "m",
-                .doc = "radius; the corners of the facets lie on it",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
-    [LENGTH] = {.name = "length_m",
-                .unit = "m",
-                .doc = "length along the axis",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
+    [RADIUS] = LENGTH_KEY("radius_m", "radius; the corners of the facets lie on it"),
+    [LENGTH] = LENGTH_KEY("length_m", "length along the axis"),
     [SIDES] = SIDES_KEY,
     [TOLERANCE] = TOLERANCE_KEY,
     [CENTRE] = CENTRE_KEY,
-    [AXIS] = {.name = "axis",
-              .unit = "",
-              .doc = "direction of the axis",
-              .kind = KEY_DIRECTION,
-              .def = {0, 0, 1}},
-    [MATERIAL] = {.name = "material",
-                  .unit = "",
-                  .doc = "material of the side",
-                  .kind = KEY_MATERIAL,
-                  .required = true},
-    [CAP_MATERIAL] = {.name = "cap_material",
-                      .unit = "",
-                      .doc = "material of the caps; absent: that of the sides",
-                      .kind = KEY_MATERIAL},
-    [INSIDE_MATERIAL] = {.name = "inside_material",
-                         .unit = "",
-                         .doc = "material of the inside of an open one; absent: black",
-                         .kind = KEY_MATERIAL},
-    [OPEN] = {.name = "open",
-              .unit = "",
-              .doc = "true leaves the caps out",
-              .kind = KEY_SWITCH,
-              .max = 1},
+    [AXIS] = AXIS_KEY("direction of the axis"),
+    [MATERIAL] = MATERIAL_KEY("material of the side"),
+    [CAP_MATERIAL] = CAP_MATERIAL_KEY,
+    [INSIDE_MATERIAL] = INSIDE_MATERIAL_KEY,
+    [OPEN] = OPEN_KEY,
 };
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
@@ -83,11 +55,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     return frustum_build(&cylinder, component, out, error);
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
-}
-
 const primitive_kind primitive_cylinder = {
     .name = "cylinder",
     .doc = "round cylinder; facets as of a prism, that stand for the round side. Tangents: the "
@@ -97,5 +64,5 @@ const primitive_kind primitive_cylinder = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

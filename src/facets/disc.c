@@ -7,54 +7,21 @@
 enum { RADIUS, SIDES, TOLERANCE, CENTRE, NORMAL, TANGENT, MATERIAL, BACK_MATERIAL, N_KEYS };
 
 static const primitive_key keys[N_KEYS] = {
-    [RADIUS] = {.name = "radius_m",
-                .unit = "m",
-                .doc = "radius; the corners of the polygon lie on it",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
+    [RADIUS] = LENGTH_KEY("radius_m", "radius; the corners of the polygon lie on it"),
     [SIDES] = SIDES_KEY,
     [TOLERANCE] = TOLERANCE_KEY,
     [CENTRE] = CENTRE_KEY,
-    [NORMAL] = {.name = "normal",
-                .unit = "",
-                .doc = "direction in which the front looks",
-                .kind = KEY_DIRECTION,
-                .required = true},
-    [TANGENT] =
-        {.name = "tangent",
-         .unit = "",
-         .doc = "direction of the first corner, made orthogonal to the normal; absent: x or y, "
-                "whichever is less along the normal",
-         .kind = KEY_DIRECTION},
-    [MATERIAL] = {.name = "material",
-                  .unit = "",
-                  .doc = "material of the front",
-                  .kind = KEY_MATERIAL,
-                  .required = true},
-    [BACK_MATERIAL] = {.name = "back_material",
-                       .unit = "",
-                       .doc = "material of the back; absent: black, but it still casts shadows",
-                       .kind = KEY_MATERIAL},
+    [NORMAL] = NORMAL_KEY("direction in which the front looks"),
+    [TANGENT] = CORNER_KEY,
+    [MATERIAL] = MATERIAL_KEY("material of the front"),
+    [BACK_MATERIAL] = BACK_MATERIAL_KEY("material of the back"),
 };
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
 {
-    glint_status status = check_resolution(spec, SIDES, TOLERANCE, errors);
-    if (spec->given[TANGENT] && primitive_key_sound(spec, NORMAL) &&
-        primitive_key_sound(spec, TANGENT) &&
-        primitive_parallel(spec->value[NORMAL], spec->value[TANGENT]))
-        status = errors_add(errors, GLINT_INPUT, spec->key_place[TANGENT],
-                            "tangent is along the normal; expected a direction across it");
-    return status;
-}
-
-/* The normal, and the direction of the first corner: the tangent, or else x or y as about an axis.
- */
-static void directions(const primitive_spec *spec, double normal[3], double first[3])
-{
-    revolved_axes(spec->value[NORMAL], normal, first);
-    if (spec->given[TANGENT]) perp3(spec->value[TANGENT], normal, first);
+    const glint_status count = check_resolution(spec, SIDES, TOLERANCE, errors);
+    const glint_status across = check_tangent_key(spec, NORMAL, TANGENT, errors);
+    return count ? count : across;
 }
 
 static glint_status build(const primitive_spec *spec, int component, facet_list *out,
@@ -64,7 +31,7 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     const double radius_m = spec->value[RADIUS][0];
     const int n = sides_of(spec, SIDES, TOLERANCE, radius_m);
     double normal[3], first[3];
-    directions(spec, normal, first);
+    disc_axes(spec, NORMAL, TANGENT, normal, first);
     double(*ring)[3] = malloc((size_t)n * sizeof *ring);
     if (!ring) return error_no_memory(error);
     revolved_ring(spec->value[CENTRE], normal, first, radius_m, n, ring);
@@ -72,11 +39,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
                                               spec->material[BACK_MATERIAL], component, error);
     free(ring);
     return status;
-}
-
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
 }
 
 const primitive_kind primitive_disc = {
@@ -88,5 +50,5 @@ const primitive_kind primitive_disc = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

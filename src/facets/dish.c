@@ -9,19 +9,10 @@ enum { RADIUS, DEPTH, SIDES, RINGS, TOLERANCE, CENTRE, AXIS, MATERIAL, BACK_MATE
 enum { RINGS_MAX = 1000 };
 
 static const primitive_key keys[N_KEYS] = {
-    [RADIUS] = {.name = "radius_m",
-                .unit = "m",
-                .doc = "radius of the rim; the corners of the facets lie on the paraboloid",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
-    [DEPTH] = {.name = "depth_m",
-               .unit = "m",
-               .doc = "distance of the rim from the vertex along the axis; the focal length is "
-                      "radius_m^2 / (4 depth_m)",
-               .kind = KEY_NUMBER,
-               .required = true,
-               LENGTH_RANGE},
+    [RADIUS] = LENGTH_KEY("radius_m",
+                          "radius of the rim; the corners of the facets lie on the paraboloid"),
+    [DEPTH] = LENGTH_KEY("depth_m", "distance of the rim from the vertex along the axis; the focal "
+                                    "length is radius_m^2 / (4 depth_m)"),
     [SIDES] = SIDES_KEY,
     [RINGS] = {.name = "rings",
                .unit = "",
@@ -31,27 +22,10 @@ static const primitive_key keys[N_KEYS] = {
                .min = 1,
                .max = RINGS_MAX},
     [TOLERANCE] = TOLERANCE_KEY,
-    [CENTRE] = {.name = "centre_m",
-                .unit = "m",
-                .doc = "the vertex: the deepest point",
-                .kind = KEY_VECTOR,
-                .length = 3,
-                COORDINATE_RANGE},
-    [AXIS] = {.name = "axis",
-              .unit = "",
-              .doc = "direction in which it opens",
-              .kind = KEY_DIRECTION,
-              .def = {0, 0, 1}},
-    [MATERIAL] = {.name = "material",
-                  .unit = "",
-                  .doc = "material of the hollow side",
-                  .kind = KEY_MATERIAL,
-                  .required = true},
-    [BACK_MATERIAL] = {.name = "back_material",
-                       .unit = "",
-                       .doc =
-                           "material of the other side; absent: black, but it still casts shadows",
-                       .kind = KEY_MATERIAL},
+    [CENTRE] = POINT_KEY("centre_m", "the vertex: the deepest point"),
+    [AXIS] = AXIS_KEY("direction in which it opens"),
+    [MATERIAL] = MATERIAL_KEY("material of the hollow side"),
+    [BACK_MATERIAL] = BACK_MATERIAL_KEY("material of the other side"),
 };
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
@@ -154,11 +128,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     return status;
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
-}
-
 const primitive_kind primitive_dish = {
     .name = "dish",
     .doc = "paraboloid that opens along its axis, a shell without thickness; reflects inside, and "
@@ -168,5 +137,5 @@ const primitive_kind primitive_dish = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

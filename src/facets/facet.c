@@ -3,8 +3,6 @@
 #include "base/vec.h"
 #include "facets/primitive_kinds.h"
 
-#include <stdlib.h>
-
 enum { VERTICES, TANGENT, MATERIAL, BACK_MATERIAL, N_KEYS };
 
 static const primitive_key keys[N_KEYS] = {
@@ -18,15 +16,8 @@ static const primitive_key keys[N_KEYS] = {
                  .unit = "",
                  .doc = "direction made orthogonal to the normal; absent: the first edge",
                  .kind = KEY_DIRECTION},
-    [MATERIAL] = {.name = "material",
-                  .unit = "",
-                  .doc = "material of the front",
-                  .kind = KEY_MATERIAL,
-                  .required = true},
-    [BACK_MATERIAL] = {.name = "back_material",
-                       .unit = "",
-                       .doc = "material of the back; absent: black, but it still casts shadows",
-                       .kind = KEY_MATERIAL},
+    [MATERIAL] = MATERIAL_KEY("material of the front"),
+    [BACK_MATERIAL] = BACK_MATERIAL_KEY("material of the back"),
 };
 
 /* How far a vertex may lie off the plane, or inside the outline, as a fraction of the polygon's
@@ -151,25 +142,8 @@ static glint_status check(const primitive_spec *spec, glint_errors *errors)
     if (flat) status = flat;
     const glint_status convex = check_convex(spec, size_m, normal, errors);
     if (convex) status = convex;
-    if (spec->given[TANGENT] && primitive_key_sound(spec, TANGENT) &&
-        primitive_parallel(normal, spec->value[TANGENT]))
-        status = errors_add(errors, GLINT_INPUT, spec->key_place[TANGENT],
-                            "tangent is along the normal; expected a direction across it");
-    return status;
-}
-
-static glint_status add_back(const primitive_spec *spec, const double tangent[3], int component,
-                             facet_list *out, glint_error *error)
-{
-    const int n = spec->n_points;
-    double(*back)[3] = malloc((size_t)n * sizeof *back);
-    if (!back) return error_no_memory(error);
-    for (int k = 0; k < n; k++)
-        copy3(spec->points[n - 1 - k], back[k]);
-    const glint_status status =
-        facet_list_add(out, back, n, tangent, spec->material[BACK_MATERIAL], component, error);
-    free(back);
-    return status;
+    const glint_status across = check_tangent(spec, normal, TANGENT, errors);
+    return across ? across : status;
 }
 
 static glint_status build(const primitive_spec *spec, int component, facet_list *out,
@@ -181,10 +155,8 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
         copy3(spec->value[TANGENT], tangent);
     else
         sub3(spec->points[1], spec->points[0], tangent);
-    const glint_status status = facet_list_add(out, spec->points, spec->n_points, tangent,
-                                               spec->material[MATERIAL], component, error);
-    if (status || spec->material[BACK_MATERIAL] == PRIMITIVE_NO_MATERIAL) return status;
-    return add_back(spec, tangent, component, out, error);
+    return add_two_sided(out, spec->points, spec->n_points, tangent, spec->material[MATERIAL],
+                         spec->material[BACK_MATERIAL], component, error);
 }
 
 const primitive_kind primitive_facet = {

@@ -244,12 +244,13 @@ static void add_lobe(const globe *g, globe_scratch *s, const visibility_pose *po
 {
     const brdf_lobe *lobe = &matter->narrow[which];
     const brdf_material one = {.n_lobes = 1, .lobes = &matter->narrow[which]};
-    batch pairs = {.material = &one};
+    batch pairs;
     highlight l = {.lobe = lobe,
                    .shape = &matter->shapes[which],
                    .ground = &g->ground[band],
                    .window = window_of(&matter->shapes[which]),
                    .batch = &pairs};
+    batch_start(&pairs, &one);
     for (l.lane = 0; l.lane < BRDF_TILE; l.lane++) {
         if (s->lanes[l.lane].n_rings == 0) continue;
         const double *component =

@@ -58,12 +58,8 @@ static const primitive_key keys[N_KEYS] = {
             .kind = KEY_WORD,
             .words = up_words,
             .n_words = 3},
-    [ORIGIN] = {.name = "origin_m",
-                .unit = "m",
-                .doc = "where the origin of the file lies; rotation_deg turns about it",
-                .kind = KEY_VECTOR,
-                .length = 3,
-                COORDINATE_RANGE},
+    [ORIGIN] =
+        POINT_KEY("origin_m", "where the origin of the file lies; rotation_deg turns about it"),
     [TANGENT] = {.name = "tangent",
                  .unit = "",
                  .doc = "direction made orthogonal to each normal; absent: x, or y where that is "
@@ -447,11 +443,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     return status;
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[ORIGIN], out);
-}
-
 const primitive_kind primitive_mesh = {
     .name = "mesh",
     .doc =
@@ -462,5 +453,5 @@ const primitive_kind primitive_mesh = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = ORIGIN,
 };

@@ -13,35 +13,20 @@ static const primitive_key keys[N_KEYS] = {
               .required = true,
               LENGTH_RANGE},
     [CENTRE] = CENTRE_KEY,
-    [NORMAL] = {.name = "normal",
-                .unit = "",
-                .doc = "direction in which the front looks",
-                .kind = KEY_DIRECTION,
-                .required = true},
+    [NORMAL] = NORMAL_KEY("direction in which the front looks"),
     [TANGENT] = {.name = "tangent",
                  .unit = "",
                  .doc = "direction of the first side, made orthogonal to the normal",
                  .kind = KEY_DIRECTION,
                  .required = true},
-    [MATERIAL] = {.name = "material",
-                  .unit = "",
-                  .doc = "material of the front",
-                  .kind = KEY_MATERIAL,
-                  .required = true},
-    [BACK_MATERIAL] = {.name = "back_material",
-                       .unit = "",
-                       .doc = "material of the back; absent: black, but it still casts shadows",
-                       .kind = KEY_MATERIAL},
+    [MATERIAL] = MATERIAL_KEY("material of the front"),
+    [BACK_MATERIAL] = BACK_MATERIAL_KEY("material of the back"),
     [CRINKLE] = CRINKLE_KEY,
 };
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
 {
-    if (primitive_key_sound(spec, NORMAL) && primitive_key_sound(spec, TANGENT) &&
-        primitive_parallel(spec->value[NORMAL], spec->value[TANGENT]))
-        return errors_add(errors, GLINT_INPUT, spec->key_place[TANGENT],
-                          "tangent is along the normal; expected a direction across it");
-    return GLINT_OK;
+    return check_tangent_key(spec, NORMAL, TANGENT, errors);
 }
 
 static glint_status build_crinkled(const primitive_spec *spec, const double corner[4][3],
@@ -82,11 +67,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
                          component, error);
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
-}
-
 const primitive_kind primitive_plate = {
     .name = "plate",
     .doc = "flat rectangle that reflects in front, and behind where back_material is given",
@@ -94,5 +74,5 @@ const primitive_kind primitive_plate = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

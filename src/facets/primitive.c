@@ -206,6 +206,23 @@ bool primitive_parallel(const double a[3], const double b[3])
     return fmin(angle, PI - angle) <= PARALLEL_RAD;
 }
 
+glint_status check_tangent(const primitive_spec *spec, const double normal[3], int tangent_key,
+                           glint_errors *errors)
+{
+    if (!spec->given[tangent_key] || !primitive_key_sound(spec, tangent_key) ||
+        !primitive_parallel(normal, spec->value[tangent_key]))
+        return GLINT_OK;
+    return errors_add(errors, GLINT_INPUT, spec->key_place[tangent_key],
+                      "tangent is along the normal; expected a direction across it");
+}
+
+glint_status check_tangent_key(const primitive_spec *spec, int normal_key, int tangent_key,
+                               glint_errors *errors)
+{
+    if (!primitive_key_sound(spec, normal_key)) return GLINT_OK; /* said already */
+    return check_tangent(spec, spec->value[normal_key], tangent_key, errors);
+}
+
 static bool is_direction(const double v[3])
 {
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) && !is_zero(v);
@@ -244,6 +261,14 @@ glint_status primitive_check(const primitive_spec *spec, glint_errors *errors)
 
 /* --- building --- */
 
+void reverse_points(double (*points)[3], int n)
+{
+    for (int a = 0, b = n - 1; a < b; a++, b--) {
+        double swap[3];
+        copy3(points[a], swap), copy3(points[b], points[a]), copy3(swap, points[b]);
+    }
+}
+
 glint_status add_two_sided(facet_list *out, const double (*vertices)[3], int n,
                            const double tangent[3], int material, int back_material, int component,
                            glint_error *error)
@@ -252,8 +277,8 @@ glint_status add_two_sided(facet_list *out, const double (*vertices)[3], int n,
     if (status || back_material == PRIMITIVE_NO_MATERIAL) return status;
     double(*back)[3] = malloc((size_t)n * sizeof *back);
     if (!back) return error_no_memory(error);
-    for (int k = 0; k < n; k++)
-        copy3(vertices[n - 1 - k], back[k]);
+    memcpy(back, vertices, (size_t)n * sizeof *back);
+    reverse_points(back, n);
     status = facet_list_add(out, back, n, tangent, back_material, component, error);
     free(back);
     return status;
@@ -322,14 +347,6 @@ static block copy_block(facet_list *list, block b)
     return copy;
 }
 
-static void reverse_points(double (*v)[3], int n)
-{
-    for (int a = 0, b = n - 1; a < b; a++, b--) {
-        double swap[3];
-        copy3(v[a], swap), copy3(v[b], v[a]), copy3(swap, v[b]);
-    }
-}
-
 /* A reflection turns anticlockwise into clockwise: the vertices run backwards to make up for it. */
 static void reverse_vertices(facet_list *list, block b)
 {
@@ -346,7 +363,10 @@ static void rotate_about_centre(const primitive_spec *spec, facet_list *list, bl
     double axis[3];
     unit3(spec->rotation_axis, axis);
     mat_turn(axis, spec->rotation_rad, m.r);
-    spec->kind->centre(spec, m.about);
+    if (spec->kind->centre)
+        spec->kind->centre(spec, m.about);
+    else
+        copy3(spec->value[spec->kind->centre_key], m.about);
     move_block(&m, list, b);
 }
 

@@ -167,7 +167,9 @@ typedef struct primitive_kind {
      * already among `errors`, which also takes warnings; NULL allowed. */
     glint_status (*build)(const primitive_spec *spec, int component, facet_list *out,
                           glint_errors *errors, glint_error *error);
-    /* The point that rotation_deg turns about. */
+    /* The point that rotation_deg turns about: the value of a key or, where the kind has none that
+     * says it, what this function finds. */
+    int centre_key;
     void (*centre)(const primitive_spec *spec, double out[3]);
 } primitive_kind;
 

@@ -13,11 +13,28 @@
 #define LENGTH_RANGE .min = LENGTH_MIN_M, .max = LENGTH_MAX_M
 #define COORDINATE_RANGE .min = -LENGTH_MAX_M, .max = LENGTH_MAX_M
 
-/* The key of a primitive's centre. */
-#define CENTRE_KEY                                                                                 \
+/* Rows of keys that several kinds have; each says in `doc` what its own is. */
+#define LENGTH_KEY(NAME, DOC)                                                                      \
     {                                                                                              \
-        .name = "centre_m", .unit = "m", .doc = "centre", .kind = KEY_VECTOR, .length = 3,         \
-        COORDINATE_RANGE                                                                           \
+        .name = NAME, .unit = "m", .doc = DOC, .kind = KEY_NUMBER, .required = true, LENGTH_RANGE  \
+    }
+#define POINT_KEY(NAME, DOC)                                                                       \
+    {                                                                                              \
+        .name = NAME, .unit = "m", .doc = DOC, .kind = KEY_VECTOR, .length = 3, COORDINATE_RANGE   \
+    }
+#define CENTRE_KEY POINT_KEY("centre_m", "centre")
+#define NORMAL_KEY(DOC)                                                                            \
+    {                                                                                              \
+        .name = "normal", .unit = "", .doc = DOC, .kind = KEY_DIRECTION, .required = true          \
+    }
+#define MATERIAL_KEY(DOC)                                                                          \
+    {                                                                                              \
+        .name = "material", .unit = "", .doc = DOC, .kind = KEY_MATERIAL, .required = true         \
+    }
+#define BACK_MATERIAL_KEY(DOC)                                                                     \
+    {                                                                                              \
+        .name = "back_material", .unit = "",                                                       \
+        .doc = DOC "; absent: black, but it still casts shadows", .kind = KEY_MATERIAL             \
     }
 
 /* Two directions nearer than this to one line are parallel, rad. */
@@ -47,5 +64,14 @@ glint_status add_two_sided(facet_list *out, const double (*vertices)[3], int n,
 
 /* True when the lines of two directions (any length, not zero) are parallel. */
 bool primitive_parallel(const double a[3], const double b[3]);
+/* An error where the tangent is given and runs along the normal (any length, not zero). */
+glint_status check_tangent(const primitive_spec *spec, const double normal[3], int tangent_key,
+                           glint_errors *errors);
+/* The same, where the normal is a key too. */
+glint_status check_tangent_key(const primitive_spec *spec, int normal_key, int tangent_key,
+                               glint_errors *errors);
+
+/* Makes the points run the other way round. */
+void reverse_points(double (*points)[3], int n);
 
 #endif

@@ -5,18 +5,8 @@
 enum { RADIUS, LENGTH, SIDES, CENTRE, AXIS, MATERIAL, CAP_MATERIAL, OPEN, N_KEYS };
 
 static const primitive_key keys[N_KEYS] = {
-    [RADIUS] = {.name = "radius_m",
-                .unit = "m",
-                .doc = "radius of the circle through the vertices",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
-    [LENGTH] = {.name = "length_m",
-                .unit = "m",
-                .doc = "length along the axis",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
+    [RADIUS] = LENGTH_KEY("radius_m", "radius of the circle through the vertices"),
+    [LENGTH] = LENGTH_KEY("length_m", "length along the axis"),
     [SIDES] = {.name = "sides",
                .unit = "",
                .doc = "number of sides",
@@ -25,25 +15,10 @@ static const primitive_key keys[N_KEYS] = {
                .min = SIDES_MIN,
                .max = SIDES_MAX},
     [CENTRE] = CENTRE_KEY,
-    [AXIS] = {.name = "axis",
-              .unit = "",
-              .doc = "direction of the axis",
-              .kind = KEY_DIRECTION,
-              .def = {0, 0, 1}},
-    [MATERIAL] = {.name = "material",
-                  .unit = "",
-                  .doc = "material of the sides",
-                  .kind = KEY_MATERIAL,
-                  .required = true},
-    [CAP_MATERIAL] = {.name = "cap_material",
-                      .unit = "",
-                      .doc = "material of the caps; absent: that of the sides",
-                      .kind = KEY_MATERIAL},
-    [OPEN] = {.name = "open",
-              .unit = "",
-              .doc = "true leaves the caps out",
-              .kind = KEY_SWITCH,
-              .max = 1},
+    [AXIS] = AXIS_KEY("direction of the axis"),
+    [MATERIAL] = MATERIAL_KEY("material of the sides"),
+    [CAP_MATERIAL] = CAP_MATERIAL_KEY,
+    [OPEN] = OPEN_KEY,
 };
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
@@ -68,11 +43,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     return frustum_build(&prism, component, out, error);
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
-}
-
 const primitive_kind primitive_prism = {
     .name = "prism",
     .doc = "right prism over a regular polygon; its vertices stand at k 360/sides deg, "
@@ -83,5 +53,5 @@ const primitive_kind primitive_prism = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

@@ -48,6 +48,13 @@ void revolved_axes(const double axis[3], double unit_axis[3], double first[3])
     perp3(fabs(unit_axis[1]) < fabs(unit_axis[0]) - PARALLEL_RAD ? y : x, unit_axis, first);
 }
 
+void disc_axes(const primitive_spec *spec, int normal_key, int tangent_key, double normal[3],
+               double first[3])
+{
+    revolved_axes(spec->value[normal_key], normal, first);
+    if (spec->given[tangent_key]) perp3(spec->value[tangent_key], normal, first);
+}
+
 void revolved_ring(const double centre_m[3], const double axis[3], const double first[3],
                    double radius_m, int n, double (*out)[3])
 {
@@ -57,14 +64,6 @@ void revolved_ring(const double centre_m[3], const double axis[3], const double 
         const double angle = k * (TWO_PI / n);
         add_scaled3(centre_m, radius_m * cos(angle), first, out[k]);
         add_scaled3(out[k], radius_m * sin(angle), second, out[k]);
-    }
-}
-
-static void reverse(double (*v)[3], int n)
-{
-    for (int a = 0, b = n - 1; a < b; a++, b--) {
-        double swap[3];
-        copy3(v[a], swap), copy3(v[b], v[a]), copy3(swap, v[b]);
     }
 }
 
@@ -79,7 +78,7 @@ static glint_status add_sides(const frustum *f, const double (*bottom)[3], const
         double side[4][3], along[3];
         copy3(bottom[k], side[0]), copy3(bottom[next], side[1]);
         copy3(top[next], side[2]), copy3(top[k], side[3]);
-        if (inside) reverse(side, corners);
+        if (inside) reverse_points(side, corners);
         for (int j = 0; j < 3; j++) /* from the middle of the bottom edge to that of the top edge */
             along[j] = top[k][j] + top[next][j] - bottom[k][j] - bottom[next][j];
         const double *tangent = f->bottom_m == f->top_m ? f->axis : along;
@@ -123,7 +122,7 @@ glint_status frustum_build(const frustum *f, int component, facet_list *out, gli
     if (!status && f->inside_material != PRIMITIVE_NO_MATERIAL)
         status = add_sides(f, bottom, top, surface, true, component, out, error);
     if (!status && !f->open) {
-        reverse(bottom, n);
+        reverse_points(bottom, n);
         status = facet_list_add(out, bottom, n, f->first, f->cap_material, component, error);
     }
     free(bottom);

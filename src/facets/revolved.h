@@ -20,6 +20,34 @@ enum { SIDES_MIN = 3, SIDES_MAX = 10000, SIDES_DEFAULT = 64 };
         .kind = KEY_NUMBER, LENGTH_RANGE                                                           \
     }
 
+/* What else several of them have. */
+#define AXIS_KEY(DOC)                                                                              \
+    {                                                                                              \
+        .name = "axis", .unit = "", .doc = DOC, .kind = KEY_DIRECTION, .def = { 0, 0, 1 }          \
+    }
+#define CORNER_KEY                                                                                 \
+    {                                                                                              \
+        .name = "tangent", .unit = "",                                                             \
+        .doc = "direction of the first corner, made orthogonal to the normal; absent: x or y, "    \
+               "whichever is less along the normal",                                               \
+        .kind = KEY_DIRECTION                                                                      \
+    }
+#define CAP_MATERIAL_KEY                                                                           \
+    {                                                                                              \
+        .name = "cap_material", .unit = "",                                                        \
+        .doc = "material of the caps; absent: that of the sides", .kind = KEY_MATERIAL             \
+    }
+#define INSIDE_MATERIAL_KEY                                                                        \
+    {                                                                                              \
+        .name = "inside_material", .unit = "",                                                     \
+        .doc = "material of the inside of an open one; absent: black", .kind = KEY_MATERIAL        \
+    }
+#define OPEN_KEY                                                                                   \
+    {                                                                                              \
+        .name = "open", .unit = "", .doc = "true leaves the caps out", .kind = KEY_SWITCH,         \
+        .max = 1                                                                                   \
+    }
+
 /* An error where both a count and a tolerance are given. */
 glint_status check_resolution(const primitive_spec *spec, int count_key, int tolerance_key,
                               glint_errors *errors);
@@ -36,6 +64,11 @@ int sides_of(const primitive_spec *spec, int sides_key, int tolerance_key, doubl
  * divided: x or y, whichever is less along it, made perpendicular; x where both are alike, since
  * what is nearer than PARALLEL_RAD differs by rounding. */
 void revolved_axes(const double axis[3], double unit_axis[3], double first[3]);
+
+/* The normal of a flat round piece (unit), and the direction of its first corner: the tangent made
+ * orthogonal to it where that is given, or else as about an axis. */
+void disc_axes(const primitive_spec *spec, int normal_key, int tangent_key, double normal[3],
+               double first[3]);
 
 /* Writes n points at k 360/n deg, right-handed about the axis, from `first`. axis, first: unit,
  * orthogonal. */

@@ -1,84 +1,12 @@
 #include "facets/solar_disc.h"
 
+#include "base/clones.h"
 #include "base/constants.h"
 #include "base/gauss.h"
 #include "base/vec.h"
-#include "brdf/sharpness.h"
-#include "facets/lanes.h"
 
 #include <math.h>
-#include <stdint.h>
-
-/* A point Sun is off by size^2 (D^2 - 2)/8 of a Gaussian lobe's value: size is how far the bisector
- * runs while the source crosses from the middle of its disc to the rim, D how far the bisector is
- * from the lobe's top, both in widths of the lobe. Up to this size^2 max(2, D^2 - 2) the middle
- * alone is within 8e-4. */
-#define POINT_ERROR 6.4e-3
-/* And so near to opposition, in radii of the disc, powders have cusps. */
-#define OPPOSITION 8.0
-
-/* Whether f changes at once when the two directions, 50 deg from the normal, part by 1 deg. */
-static bool has_surge(const brdf_lobe *lobe)
-{
-    static const double CHANGE = 0.02;
-    const double away = sin(50 * DEG), up = cos(50 * DEG), apart = 1 * DEG;
-    const double i[3] = {away, 0.0, up}, r[3] = {away * cos(apart), away * sin(apart), up};
-    const double together = lobe->model->eval(brdf_lobe_coef(lobe), i, i);
-    return fabs(lobe->model->eval(brdf_lobe_coef(lobe), i, r) - together) > CHANGE * together;
-}
-
-static double f_at(const brdf_lobe *lobe, double tilt)
-{
-    const double i[3] = {sin(tilt), 0.0, cos(tilt)};
-    return lobe->model->eval(brdf_lobe_coef(lobe), i, i) / (i[2] * i[2]);
-}
-
-/* How f, with all that the material reflects besides, bends at a distance from the lobe's top:
- * f''/f and f'/(f distance), per width^2. */
-static double bend_at(const brdf_lobe *lobe, double width, double distance)
-{
-    const double step = fmax(0.2, 0.05 * distance);
-    const double f = f_at(lobe, distance * width), on = f_at(lobe, (distance + step) * width);
-    const double before = f_at(lobe, (distance - step) * width);
-    if (!(f > 0.0)) return 0.0;
-    return (fabs(on - 2.0 * f + before) / (step * step) +
-            fabs(on - before) / (2.0 * step * distance)) /
-           f;
-}
-
-/* Looks how a lobe of that width falls: as a power of the distance at most, and to where. */
-static void look_at_wings(const brdf_lobe *lobe, double width, lobe_shape *out)
-{
-    static const double FAR = 1.2;     /* rad */
-    static const double SLIGHT = 1e-3; /* bends that need no care, under discs of two widths */
-    out->wing = 0.0;
-    out->end = 0.0;
-    for (double d = 1.0; d * width < FAR; d *= 1.12) {
-        const double bend = bend_at(lobe, width, d);
-        if (bend < SLIGHT) continue;
-        out->wing = fmax(out->wing, d * sqrt(bend));
-        out->end = 1.12 * d;
-    }
-    if (out->end * width > 0.8 * FAR) out->end = HUGE_VAL;
-}
-
-void lobe_shape_find(const brdf_lobe *lobe, lobe_shape *out)
-{
-    *out = (lobe_shape){.specular = lobe->model->specular != NULL};
-    if (out->specular) {
-        out->narrow = HUGE_VAL;
-        return;
-    }
-    brdf_sharpness sharpness;
-    brdf_lobe_sharpness(lobe, &sharpness);
-    for (int j = 0; j < 2; j++) {
-        out->width[j] = fmin(sharpness.width[j], LOBE_WIDEST);
-        out->reach = fmax(out->reach, sharpness.reach[j] / out->width[j]);
-    }
-    out->narrow = 1.0 / fmin(out->width[0], out->width[1]);
-    out->surge = has_surge(lobe);
-    look_at_wings(lobe, 1.0 / out->narrow, out);
-}
+#include <string.h>
 
 /* --- the disc's own moments --- */
 
@@ -171,6 +99,8 @@ typedef struct scene {
     double i[3], r[3], e1[3], e2[3];
     double scale; /* tangent of the disc's radius */
     double area_m2;
+    double horizon; /* only points with x above it are up, -1 or less: all of them */
+    double middle;  /* x half way up what is up */
 } scene;
 
 static void look_at(scene *s, const double i[3], const double r[3])
@@ -205,15 +135,21 @@ typedef struct lean {
 
 static bool lean_at(const scene *s, double x, double y, lean *out)
 {
-    double i[3], h[3];
+    double i[3], h[3], way[2][3];
     point_at(s, x, y, i);
     add3(i, s->r, h);
     if (!(h[2] > 0.0)) return false;
+    /* of i, unit all the way: matters where all is grazing */
+    const double length = dot3(i, s->i), bend = s->scale * length;
+    for (int j = 0; j < 3; j++) {
+        way[0][j] = s->scale * length * (s->e1[j] - bend * x * i[j]);
+        way[1][j] = s->scale * length * (s->e2[j] - bend * y * i[j]);
+    }
     for (int j = 0; j < 2; j++) {
         const double slope = h[j] / h[2], narrow = 1.0 / s->sample->shape->width[j];
         out->at[j] = slope * narrow;
-        out->turn[j][0] = s->scale * (s->e1[j] - slope * s->e1[2]) / h[2] * narrow;
-        out->turn[j][1] = s->scale * (s->e2[j] - slope * s->e2[2]) / h[2] * narrow;
+        for (int k = 0; k < 2; k++)
+            out->turn[j][k] = (way[k][j] - slope * way[k][2]) / h[2] * narrow;
     }
     return true;
 }
@@ -298,11 +234,15 @@ static double asin_within(double x)
     return asin(fmin(fmax(x, -1.0), 1.0));
 }
 
-/* Integrates over the disc along two orthogonal axes, with the lobe's top at `top` in these axes,
- * and its width along them given. x = sin psi, y = cos psi sin chi: then nothing is singular at the
+/* Integrates over the disc along two orthogonal axes: lines in the direction in which the lobe
+ * changes slowest, one beside the other in that in which it changes fastest. `top`, `width`,
+ * `reach`: where it is highest on the fast axis, its width there in radii, where it is narrowest,
+ * and how many of these it reaches at most; each line looks for its own top and width, from
+ * slow_top. Place x = sin psi, on the line y = cos psi sin chi: then nothing is singular at the
  * rim. */
 typedef struct patch {
-    double along[2], top[2], width[2], reach;
+    double fast[2], slow[2]; /* the axes, unit */
+    double top, width, reach, slow_top;
 } patch;
 
 /* Points of a rule over the panels of a line between -c and c, in the angle whose sine is the place
@@ -328,78 +268,171 @@ static void fill_rule(const panels *line, double c, line_rule *out)
     }
 }
 
+static void place_on(const patch *p, double fast, double slow, double out[2])
+{
+    for (int j = 0; j < 2; j++)
+        out[j] = fast * p->fast[j] + slow * p->slow[j];
+}
+
+/* Where the lobe is highest on a line, and how wide it is there, as it looks from the point of the
+ * line between lo and hi that is next to the first guess in *top. */
+static void find_on_line(const scene *s, const patch *p, double across, double lo, double hi,
+                         double *top, double *width)
+{
+    lean l;
+    double at[2], along[2];
+    const double y = fmin(fmax(*top, lo), hi);
+    place_on(p, across, y, at);
+    *width = HUGE_VAL;
+    if (!lean_at(s, at[0], at[1], &l)) return;
+    for (int j = 0; j < 2; j++)
+        along[j] = l.turn[j][0] * p->slow[0] + l.turn[j][1] * p->slow[1];
+    const double square = along[0] * along[0] + along[1] * along[1];
+    if (!(square > 0.0)) return;
+    *top = y - (l.at[0] * along[0] + l.at[1] * along[1]) / square;
+    *width = 1.0 / sqrt(square);
+}
+
+/* The part of a line that is up; false where none of it is. */
+static bool find_up(const scene *s, const patch *p, double across, double *lo, double *hi)
+{
+    static const double LEVEL = 1e-6; /* so level is a line that is up as a whole, or not */
+    if (s->horizon <= -1.0) return true;
+    const double above = across * p->fast[0] - s->horizon, rise = p->slow[0];
+    if (fabs(rise) < LEVEL) return above > 0.0;
+    if (rise > 0.0)
+        *lo = fmax(*lo, -above / rise);
+    else
+        *hi = fmin(*hi, -above / rise);
+    return *lo < *hi;
+}
+
 static void push_line(const scene *s, const patch *p, double psi, double weight)
 {
     const double x = sin(psi), c = cos(psi);
-    const panels line = cut(-c, c, p->top[1], p->width[1], p->reach);
+    double lo = -c, hi = c, top = p->slow_top, width;
+    if (!find_up(s, p, x, &lo, &hi)) return;
+    find_on_line(s, p, x, lo, hi, &top, &width);
+    const panels line = cut(lo, hi, top, width, p->reach);
     line_rule points;
     fill_rule(&line, c, &points);
     for (int k = 0; k < points.n; k++) {
+        double at[2];
         const double y = c * sin(points.angle[k]);
         const double bright = brightness_at(s->disc->limb_darkened, x * x + y * y);
-        push_point(s, x * p->along[0] - y * p->along[1], x * p->along[1] + y * p->along[0],
-                   weight * points.weight[k] * c * cos(points.angle[k]) * bright);
+        place_on(p, x, y, at);
+        push_point(s, at[0], at[1], weight * points.weight[k] * c * cos(points.angle[k]) * bright);
     }
 }
 
 static void push_patch(const scene *s, const patch *p)
 {
-    const panels line = cut(-1.0, 1.0, p->top[0], p->width[0], p->reach);
+    const panels line = cut(-1.0, 1.0, p->top, p->width, p->reach);
     line_rule points;
     fill_rule(&line, 1.0, &points);
     for (int k = 0; k < points.n; k++)
         push_line(s, p, points.angle[k], points.weight[k] * cos(points.angle[k]) / PI);
 }
 
-/* Where the disc sets behind the facet's plane its light is that of a point at the mean height of
- * what is still up: exact where g goes with the cosine of incidence, as it does for most surfaces
- * so low. With the middle at x radii, the mean of max(0, x + y) over a uniform disc is A below;
- * over a part of it whose brightness goes with mu, the polynomial. */
-static void push_set(const scene *s)
+/* Mean over a disc that sets of the height, as a cosine to the normal, of its points; 0 of those
+ * that have set. With the middle at x radii, the mean of max(0, x + y) over a uniform disc is `a`
+ * below; over a part of it whose brightness goes with mu, the polynomial. */
+static double mean_height(const scene *s)
 {
     const double u = s->disc->limb_darkened ? SUN_LIMB_DARKENING : 0.0;
-    const double x = fmin(1.0, s->i[2] / s->scale), x2 = x * x;
-    const double a = (sqrt(fmax(0.0, 1.0 - x2)) * (2.0 + x2) / 3.0 + x * (0.5 * PI + asin(x))) / PI;
+    const double x = s->i[2] < s->scale ? s->i[2] / s->scale : 1.0, x2 = x * x;
+    const double a = (sqrt(1.0 - x2) * (2.0 + x2) / 3.0 + x * (0.5 * PI + asin(x))) / PI;
     const double polynomial = 0.125 + x / 3.0 + x2 / 4.0 - x2 * x2 / 24.0;
-    const double up = s->scale * ((1.0 - u) * a + u * polynomial) / (1.0 - u / 3.0);
+    return s->scale * ((1.0 - u) * a + u * polynomial) / (1.0 - u / 3.0);
+}
+
+/* Where the disc sets behind the facet's plane its light is that of a point at its mean height:
+ * exact where g goes with the cosine of incidence, as it does for most surfaces so low. */
+static void push_set(const scene *s)
+{
+    const double up = mean_height(s);
     const double level = sqrt((1.0 - up * up) / (s->i[0] * s->i[0] + s->i[1] * s->i[1]));
     const double i[3] = {level * s->i[0], level * s->i[1], up};
     batch_push(s->batch, s->sample->lane, i, s->r, 0.0, 0.0, s->area_m2);
 }
 
-/* Finds the point, in radii, at which the bisector does not lean: the lobe's top. Its axes there.
- */
-static bool find_top(const scene *s, double top[2], ellipse *shape)
+/* Brings a point, in radii, to the disc: along the slow axis of the lobe as far as that does, and
+ * up from the horizon, where a lobe may have no width. */
+static void bring_to_disc(const scene *s, const double fast[2], double point[2])
+{
+    static const double ABOVE = 0.1; /* part of the height of what is up */
+    const double f = fmin(fmax(point[0] * fast[0] + point[1] * fast[1], -1.0), 1.0);
+    const double most = sqrt(1.0 - f * f);
+    const double w = fmin(fmax(point[1] * fast[0] - point[0] * fast[1], -most), most);
+    point[0] = f * fast[0] - w * fast[1];
+    point[1] = f * fast[1] + w * fast[0];
+    if (s->horizon > -1.0) point[0] = fmax(point[0], s->horizon + ABOVE * (1.0 - s->horizon));
+}
+
+/* Where the lobe's top is, in radii: the source in the mirror direction of the observer. False
+ * where that is far away. */
+static bool find_mirrored(const scene *s, double top[2])
 {
     static const double FAR = 50.0; /* radii: lobes of that reach are not narrow */
-    top[0] = top[1] = 0.0;
-    for (int step = 0; step < 4; step++) {
+    const double mirrored[3] = {-s->r[0], -s->r[1], s->r[2]};
+    const double along = dot3(mirrored, s->i) * s->scale;
+    if (!(along > 0.0)) return false;
+    top[0] = dot3(mirrored, s->e1) / along;
+    top[1] = dot3(mirrored, s->e2) / along;
+    const double far = hypot(top[0], top[1]);
+    if (far > FAR) top[0] *= FAR / far, top[1] *= FAR / far;
+    return true;
+}
+
+/* Finds the lobe's top, in radii, and its axes, both as they look from `from`, the point of the
+ * disc next to the top: at grazing incidence a lobe whose top is some radii away is many times as
+ * wide on the disc as it is there. */
+static bool find_top(const scene *s, double top[2], double from[2], ellipse *shape)
+{
+    static const double LEVEL[2] = {0.0, 1.0}; /* as a rule the fast one where all is grazing */
+    if (!find_mirrored(s, top)) return false;
+    for (int step = 0; step < 3; step++) {
         lean l;
-        if (!lean_at(s, top[0], top[1], &l)) return false;
+        from[0] = top[0], from[1] = top[1];
+        bring_to_disc(s, step > 0 ? shape->along : LEVEL, from);
+        if (!lean_at(s, from[0], from[1], &l)) return false;
         *shape = ellipse_of(&l);
         const double det = l.turn[0][0] * l.turn[1][1] - l.turn[0][1] * l.turn[1][0];
         if (!(fabs(det) > 1e-9 * shape->size[0] * shape->size[0])) return step > 0;
-        top[0] -= (l.turn[1][1] * l.at[0] - l.turn[0][1] * l.at[1]) / det;
-        top[1] -= (l.turn[0][0] * l.at[1] - l.turn[1][0] * l.at[0]) / det;
-        const double far = hypot(top[0], top[1]);
-        if (far > FAR) top[0] *= FAR / far, top[1] *= FAR / far;
+        top[0] = from[0] - (l.turn[1][1] * l.at[0] - l.turn[0][1] * l.at[1]) / det;
+        top[1] = from[1] - (l.turn[0][0] * l.at[1] - l.turn[1][0] * l.at[0]) / det;
     }
     return true;
 }
 
+/* Smallest and largest height of the bisector over what is up of the disc, over that at a point. */
+static void find_heights(const scene *s, const double from[2], double *low, double *high)
+{
+    double i[3];
+    point_at(s, from[0], from[1], i);
+    const double here = i[2] + s->r[2], swing = s->scale * s->e1[2];
+    *low = fmin(1.0, (fmax(s->i[2] - swing, 0.0) + s->r[2]) / here);
+    *high = fmax(1.0, (s->i[2] + swing + s->r[2]) / here);
+}
+
 static void push_narrow(const scene *s)
 {
-    double top[2];
+    double top[2], from[2];
     ellipse shape = {{1.0, 0.0}, {0.0, 0.0}};
-    if (!find_top(s, top, &shape)) {
+    if (!find_top(s, top, from, &shape)) {
         push_rule(s, &s->disc->rules[DISC_FOUR]);
         return;
     }
-    const patch p = {.along = {shape.along[0], shape.along[1]},
-                     .top = {top[0] * shape.along[0] + top[1] * shape.along[1],
-                             top[1] * shape.along[0] - top[0] * shape.along[1]},
-                     .width = {1.0 / shape.size[0], 1.0 / shape.size[1]},
-                     .reach = s->sample->shape->reach};
+    /* the width goes with the bisector's height, which varies over the disc where all is grazing */
+    double low, high;
+    find_heights(s, from, &low, &high);
+    const double fast[2] = {shape.along[0], shape.along[1]}, slow[2] = {-fast[1], fast[0]};
+    const patch p = {.fast = {fast[0], fast[1]},
+                     .slow = {slow[0], slow[1]},
+                     .top = top[0] * fast[0] + top[1] * fast[1],
+                     .slow_top = top[0] * slow[0] + top[1] * slow[1],
+                     .width = low / shape.size[0],
+                     .reach = s->sample->shape->reach * high / low};
     push_patch(s, &p);
 }
 
@@ -420,49 +453,16 @@ static void push_mirror(const scene *s)
                                       bright / (PI * sine * sine);
 }
 
-/* The cheapest rule that will do, DISC_NARROW where the disc is large against the lobe. size of the
- * disc and distance from the lobe's top in its widths. */
-static inline double rule_for(double size, double distance, double wing)
-{
-    const double far = distance > 1.0 ? distance : 1.0, over = wing / far;
-    const double fall = distance < over ? distance : over;  /* of the logarithm, per width */
-    const double here = distance < 2.0 + size ? size : 0.0; /* the disc reaches the core */
-    const double bend = fall * fall;
-    const double least = here > 0.0 ? 2.0 : 0.0, steep = size * fall / 1.6;
-    const double change = steep > here ? steep : here;
-    const double finer = (change > 0.28 ? 1.0 : 0.0) + (change > 0.62 ? 1.0 : 0.0) +
-                         (change > 1.0 ? 1.0 : 0.0) + (change > 1.5 ? 1.0 : 0.0) +
-                         (change > 2.0 ? 1.0 : 0.0);
-    return size * size * (bend > least ? bend : least) > POINT_ERROR ? 1.0 + finer : 0.0;
-}
-
-_Static_assert(DISC_CENTRE == 0 && DISC_CROSS == 1 && DISC_FOUR == 5 && DISC_NARROW == 6,
-               "rule_for counts the limits that are passed");
-
-/* Powders have cusps at opposition. */
-static bool is_at_surge(const scene *s)
-{
-    double apart[3];
-    if (!s->sample->shape->surge) return false;
-    sub3(s->i, s->r, apart);
-    return norm3(apart) < OPPOSITION * s->scale;
-}
-
-static disc_rule_kind rule_of(const scene *s)
+/* The rule where the lobe is narrow, or seems so to disc_rule_of. */
+static int rule_of(const scene *s)
 {
     lean l;
-    double h[3];
-    const lobe_shape *shape = s->sample->shape;
-    add3(s->i, s->r, h);
-    const bool has_lean = lean_at(s, 0.0, 0.0, &l);
-    const double size = has_lean ? largest_size(&l) : 0.0;
-    const double distance = has_lean ? sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]) : 0.0;
-    const bool past = (distance - size) * norm3(h) > 2.0 * shape->end;
-    const int rule = past ? DISC_CENTRE : (int)rule_for(size, distance, shape->wing);
-    return is_at_surge(s) && rule < DISC_FOUR ? DISC_FOUR : (disc_rule_kind)rule;
+    if (!lean_at(s, s->middle, 0.0, &l)) return DISC_CENTRE;
+    const double distance = sqrt(l.at[0] * l.at[0] + l.at[1] * l.at[1]);
+    return disc_rule_at(s->sample, s->i, s->r, largest_size(&l), distance);
 }
 
-void disc_push(batch *b, const disc_sample *sample, const double i[3], const double r[3],
+void disc_push(batch *b, const disc_sample *sample, int rule, const double i[3], const double r[3],
                double area_m2)
 {
     scene s = {.batch = b,
@@ -470,17 +470,29 @@ void disc_push(batch *b, const disc_sample *sample, const double i[3], const dou
                .disc = sample->disc,
                .scale = sample->disc->scale[sample->lane],
                .area_m2 = area_m2};
-    if (!(r[2] > BRDF_EDGE)) return;
+    if (rule == DISC_SET && sample->shape->narrow <= 1.0 / LOBE_WIDEST) { /* no lobe to look for */
+        copy3(i, s.i);
+        copy3(r, s.r);
+        push_set(&s);
+        return;
+    }
     look_at(&s, i, r);
     if (sample->shape->specular) {
         push_mirror(&s);
         return;
     }
-    if (s.i[2] <= -s.scale) return; /* all of it has set */
-    const disc_rule_kind rule = rule_of(&s);
-    if ((int)rule == DISC_NARROW)
+    const bool sets = s.i[2] < s.scale;
+    s.horizon = sets ? -s.i[2] / (s.scale * s.e1[2]) : -1.0;
+    s.middle = sets ? 0.5 * (1.0 + s.horizon) : 0.0;
+    if (sets) { /* a lobe that is narrow at the disc's middle may be over for what is up */
+        double up[3];
+        point_at(&s, s.middle, 0.0, up);
+        rule = disc_rule_of(sample, up, r);
+    }
+    if (rule == DISC_NARROW) rule = rule_of(&s);
+    if (rule == DISC_NARROW)
         push_narrow(&s);
-    else if (s.i[2] < s.scale)
+    else if (sets)
         push_set(&s);
     else
         push_rule(&s, &s.disc->rules[rule]);
@@ -511,8 +523,9 @@ CLONES static void find_axes(const disc_queue *q, double e1[3][BRDF_TILE], doubl
     }
 }
 
-CLONES static void move_source(const disc_queue *q, const double e1[3][BRDF_TILE],
-                               const double e2[3][BRDF_TILE], double x, double y, brdf_light *light)
+CLONES static void move_source(const disc_queue *restrict q, const double e1[restrict 3][BRDF_TILE],
+                               const double e2[restrict 3][BRDF_TILE], double x, double y,
+                               brdf_light *restrict light)
 {
     for (int k = 0; k < BRDF_TILE; k++) {
         const double a = q->scale[k] * x, b = q->scale[k] * y;
@@ -565,81 +578,4 @@ void disc_queue_push(disc_queue *q, const brdf_material *material, const disc_ru
     q->area_m2[k] = area_m2;
     q->lane[k] = lane;
     if (q->n == BRDF_TILE) disc_queue_flush(q, material, rule);
-}
-
-/* --- which lanes --- */
-
-/* What is the same for all lanes of a facet. */
-typedef struct facet_axes {
-    double n[3], t[3], b[3];
-} facet_axes;
-
-/* Rules for lanes in which the facet is lit by some of the disc and seen: where the disc is about
- * to set, or the two directions are near to each other. lit: 1, else 0. Returns how many are lit.
- */
-CLONES FLATTEN static double find_lit(const facet_axes *f, const brdf_light *light,
-                                      const source_disc *disc, double opposition,
-                                      double lit[BRDF_TILE], double rule[BRDF_TILE])
-{
-    const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2];
-    for (int k = 0; k < BRDF_TILE; k++) {
-        const double q = disc->scale[k], near = opposition * q;
-        const double ci = n0 * light->i[0][k] + n1 * light->i[1][k] + n2 * light->i[2][k];
-        const double cr = n0 * light->r[0][k] + n1 * light->r[1][k] + n2 * light->r[2][k];
-        const double up = q > 0.0 ? ci + q : -1.0, both = up < cr - BRDF_EDGE ? up : cr - BRDF_EDGE;
-        const double surge = light->hh[k] > 4.0 - near * near ? DISC_FOUR : 0.0;
-        const double special = ci < q ? DISC_SET : surge;
-        lit[k] = both > 0.0 ? 1.0 : 0.0;
-        rule[k] = both > 0.0 ? special : 0.0;
-    }
-    double n = 0.0;
-    for (int k = 0; k < BRDF_TILE; k++)
-        n += lit[k];
-    return n;
-}
-
-/* rule_for in all lanes; size is an upper bound, as the source's way may be foreshortened. */
-CLONES FLATTEN static void find_blurred(const lobe_shape *shape, const facet_axes *f,
-                                        const brdf_light *light, const source_disc *disc,
-                                        const double lit[BRDF_TILE], double rule[BRDF_TILE])
-{
-    const double n0 = f->n[0], n1 = f->n[1], n2 = f->n[2], t0 = f->t[0], t1 = f->t[1];
-    const double t2 = f->t[2], b0 = f->b[0], b1 = f->b[1], b2 = f->b[2];
-    /* A mirror's width is taken as 1 rad: its lobe is over at once. */
-    const double narrow_x = shape->specular ? 1.0 : 1.0 / shape->width[0];
-    const double narrow_y = shape->specular ? 1.0 : 1.0 / shape->width[1];
-    const double narrow = shape->specular ? 1.0 : shape->narrow;
-    const double end = shape->end < HUGE_VAL ? 2.0 * shape->end : 1e30;
-    const double wing = shape->wing;
-    const double always = shape->specular ? (double)DISC_NARROW : 0.0;
-    for (int k = 0; k < BRDF_TILE; k++) {
-        const double h0 = light->h[0][k], h1 = light->h[1][k], h2 = light->h[2][k];
-        const double hn = n0 * h0 + n1 * h1 + n2 * h2, up = 1.0 / (hn > 1e-30 ? hn : 1e-30);
-        const double x = (t0 * h0 + t1 * h1 + t2 * h2) * up;
-        const double y = (b0 * h0 + b1 * h1 + b2 * h2) * up;
-        const double distance = sqrt(x * x * narrow_x * narrow_x + y * y * narrow_y * narrow_y);
-        const double size = 1.01 * disc->scale[k] * narrow * up * sqrt(1.0 + x * x + y * y);
-        const double ruled = rule_for(size, distance, wing), here = ruled > always ? ruled : always;
-        const double inside = (distance - size) * light->hlen[k] <= end ? lit[k] * here : 0.0;
-        const double best = inside > rule[k] ? inside : rule[k];
-        rule[k] = inside == DISC_NARROW ? inside : best;
-    }
-}
-
-bool disc_rules_of(const lobe_shape *shape, const brdf_facets *facets, int which,
-                   const brdf_light *light, const source_disc *disc, double rule[BRDF_TILE])
-{
-    facet_axes f;
-    _Alignas(64) double lit[BRDF_TILE], any = 0.0;
-    for (int j = 0; j < 3; j++) {
-        f.n[j] = facets->normal[j][which];
-        f.t[j] = facets->tangent[j][which];
-        f.b[j] = facets->bitangent[j][which];
-    }
-    if (find_lit(&f, light, disc, shape->surge ? OPPOSITION : 0.0, lit, rule) == 0.0) return false;
-    if (shape->specular || shape->narrow > 1.0 / LOBE_WIDEST)
-        find_blurred(shape, &f, light, disc, lit, rule);
-    for (int k = 0; k < BRDF_TILE; k++)
-        any += rule[k];
-    return any != 0.0;
 }

@@ -5,12 +5,7 @@
 enum { RADIUS, CENTRE, FACETS, TOLERANCE, MATERIAL, N_KEYS };
 
 static const primitive_key keys[N_KEYS] = {
-    [RADIUS] = {.name = "radius_m",
-                .unit = "m",
-                .doc = "radius of the sphere through the vertices",
-                .kind = KEY_NUMBER,
-                .required = true,
-                LENGTH_RANGE},
+    [RADIUS] = LENGTH_KEY("radius_m", "radius of the sphere through the vertices"),
     [CENTRE] = CENTRE_KEY,
     [FACETS] = {.name = "facets",
                 .unit = "",
@@ -20,8 +15,7 @@ static const primitive_key keys[N_KEYS] = {
                 .min = 20,
                 .max = PRIMITIVE_MAX_FACETS},
     [TOLERANCE] = TOLERANCE_KEY,
-    [MATERIAL] =
-        {.name = "material", .unit = "", .doc = "material", .kind = KEY_MATERIAL, .required = true},
+    [MATERIAL] = MATERIAL_KEY("material"),
 };
 
 #define GOLDEN_RATIO 1.61803398874989484820
@@ -166,11 +160,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     return status;
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
-}
-
 const primitive_kind primitive_sphere = {
     .name = "sphere",
     .doc =
@@ -180,5 +169,5 @@ const primitive_kind primitive_sphere = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

@@ -27,11 +27,7 @@ static const primitive_key keys[N_KEYS] = {
              .min = 0,
              .max = LENGTH_MAX_M},
     [CENTRE] = CENTRE_KEY,
-    [NORMAL] = {.name = "normal",
-                .unit = "",
-                .doc = "direction in which the cells look",
-                .kind = KEY_DIRECTION,
-                .required = true},
+    [NORMAL] = NORMAL_KEY("direction in which the cells look"),
     [TANGENT] = {.name = "tangent",
                  .unit = "",
                  .doc =
@@ -39,15 +35,8 @@ static const primitive_key keys[N_KEYS] = {
                      "normal",
                  .kind = KEY_DIRECTION,
                  .required = true},
-    [MATERIAL] = {.name = "material",
-                  .unit = "",
-                  .doc = "material of the cells",
-                  .kind = KEY_MATERIAL,
-                  .required = true},
-    [BACK_MATERIAL] = {.name = "back_material",
-                       .unit = "",
-                       .doc = "material of the back; absent: black, but it still casts shadows",
-                       .kind = KEY_MATERIAL},
+    [MATERIAL] = MATERIAL_KEY("material of the cells"),
+    [BACK_MATERIAL] = BACK_MATERIAL_KEY("material of the back"),
 };
 
 /* Length of one panel along the wing, m. */
@@ -59,11 +48,7 @@ static double panel_length(const primitive_spec *spec)
 
 static glint_status check(const primitive_spec *spec, glint_errors *errors)
 {
-    glint_status status = GLINT_OK;
-    if (primitive_key_sound(spec, NORMAL) && primitive_key_sound(spec, TANGENT) &&
-        primitive_parallel(spec->value[NORMAL], spec->value[TANGENT]))
-        status = errors_add(errors, GLINT_INPUT, spec->key_place[TANGENT],
-                            "tangent is along the normal; expected a direction across it");
+    glint_status status = check_tangent_key(spec, NORMAL, TANGENT, errors);
     if (primitive_key_sound(spec, SIZE) && primitive_key_sound(spec, PANELS) &&
         primitive_key_sound(spec, GAP) && panel_length(spec) < LENGTH_MIN_M)
         status = errors_add(errors, GLINT_INPUT, spec->key_place[GAP],
@@ -97,11 +82,6 @@ static glint_status build(const primitive_spec *spec, int component, facet_list 
     return status;
 }
 
-static void centre(const primitive_spec *spec, double out[3])
-{
-    copy3(spec->value[CENTRE], out);
-}
-
 const primitive_kind primitive_wing = {
     .name = "wing",
     .doc = "flat solar wing of equal panels with gaps between them; reflects in front, and behind "
@@ -111,5 +91,5 @@ const primitive_kind primitive_wing = {
     .n_keys = N_KEYS,
     .check = check,
     .build = build,
-    .centre = centre,
+    .centre_key = CENTRE,
 };

@@ -15,7 +15,11 @@
 enum { PANEL_FROM, PANEL_LENGTH, PANEL_ERROR, PANEL_SUMS };
 enum { PAIR = 2, MOST_PANELS = 1 << 17 };
 
-_Static_assert(PAIR *KRONROD_POINTS <= TILE, "two panels fit into a tile");
+/* The samples of two panels in order: the beginning, the points of the one, those of the other, the
+ * end. */
+enum { FIRST_POINT = 1, SAMPLES = PAIR * KRONROD_POINTS + 2 };
+
+_Static_assert((int)SAMPLES <= (int)TILE, "two panels fit into a tile");
 
 static size_t count_sums(const glint_scenario *s)
 {
@@ -75,7 +79,8 @@ static bool moves_little(const exposure *x, int panel)
     const double limit = 0.5 * x->e->largest_step, most = limit * limit;
     for (int c = 0; c < x->s->satellite.n_components; c++) {
         const brdf_light *light = &x->w->lights[c];
-        for (int k = panel * KRONROD_POINTS + 1; k < (panel + 1) * KRONROD_POINTS; k++) {
+        const int first = FIRST_POINT + panel * KRONROD_POINTS;
+        for (int k = first + 1; k < first + KRONROD_POINTS; k++) {
             double sun = 0, observer = 0;
             for (int axis = 0; axis < 3; axis++) {
                 const double di = light->i[axis][k] - light->i[axis][k - 1];
@@ -89,6 +94,12 @@ static bool moves_little(const exposure *x, int panel)
     return true;
 }
 
+/* Panels whose points are no longer told apart in time are as good as can be. */
+static bool is_tiny(const double *panel)
+{
+    return panel[PANEL_FROM] + 1e-3 * panel[PANEL_LENGTH] == panel[PANEL_FROM];
+}
+
 /* Kronrod's and Gauss's sums of one panel. */
 static void sum_panel(const exposure *x, int which, double *panel)
 {
@@ -98,7 +109,7 @@ static void sum_panel(const exposure *x, int which, double *panel)
     double *sums = panel + PANEL_SUMS, gauss[SCENARIO_MAX_BANDS] = {0};
     memset(sums, 0, x->n_sums * sizeof *sums);
     for (int k = 0; k < KRONROD_POINTS; k++) {
-        const glint_row *row = &x->e->rows.rows[which * KRONROD_POINTS + k];
+        const glint_row *row = &x->e->rows.rows[FIRST_POINT + which * KRONROD_POINTS + k];
         const double weight = length * KRONROD[k], first = weight * row->flux_ratio[0];
         for (int b = 0; b < n_bands; b++) {
             sums[b] += weight * row->flux_ratio[b];
@@ -119,29 +130,45 @@ static void sum_panel(const exposure *x, int which, double *panel)
         panel[PANEL_ERROR] = fmax(panel[PANEL_ERROR], fabs(sums[b] - gauss[b]));
 }
 
+/* Whether there is light on both sides of the beginning and the end of a panel, or on neither.
+ * Light that begins or ends there, as at the horizon, is seen by no point of the panel. */
+static bool has_whole_ends(const exposure *x, int panel)
+{
+    const glint_row *rows = x->e->rows.rows + panel * KRONROD_POINTS;
+    for (int end = 0; end < 2; end++, rows += KRONROD_POINTS)
+        for (int b = 0; b < x->s->n_bands; b++)
+            if ((rows[0].flux_ratio[b] > 0) != (rows[1].flux_ratio[b] > 0)) return false;
+    return true;
+}
+
 /* Samples the two halves of a part of the exposure. resolved: whether motion between samples is
- * small in each; only then are there sums. */
+ * small in each, and no light begins or ends between them and their ends; only then are there sums.
+ */
 static glint_status sample_halves(const exposure *x, double from_s, double length_s,
                                   double *halves[PAIR], bool resolved[PAIR], glint_error *error)
 {
-    double t_s[PAIR * KRONROD_POINTS];
+    double t_s[SAMPLES];
+    t_s[0] = from_s;
+    t_s[SAMPLES - 1] = from_s + length_s;
     for (int h = 0; h < PAIR; h++) {
         halves[h][PANEL_LENGTH] = 0.5 * length_s;
         halves[h][PANEL_FROM] = from_s + h * 0.5 * length_s;
         for (int k = 0; k < KRONROD_POINTS; k++)
-            t_s[h * KRONROD_POINTS + k] =
+            t_s[FIRST_POINT + h * KRONROD_POINTS + k] =
                 halves[h][PANEL_FROM] + halves[h][PANEL_LENGTH] * KRONROD_NODES[k];
     }
     tile_worker *w = x->w;
-    glint_status status = geometry_fill_at(x->s, x->grid, 0, t_s, PAIR * KRONROD_POINTS,
-                                           &w->geometry, &w->tile, w->lights, error);
+    glint_status status =
+        geometry_fill_at(x->s, x->grid, 0, t_s, SAMPLES, &w->geometry, &w->tile, w->lights, error);
     if (status) return status;
     for (int h = 0; h < PAIR; h++)
         resolved[h] = moves_little(x, h);
     if (!resolved[0] && !resolved[1]) return GLINT_OK;
     status = tile_worker_sum(x->s, w, &x->e->rows, error);
-    for (int h = 0; h < PAIR && !status; h++)
+    for (int h = 0; h < PAIR && !status; h++) {
         if (resolved[h]) sum_panel(x, h, halves[h]);
+        resolved[h] = resolved[h] && (is_tiny(halves[h]) || has_whole_ends(x, h));
+    }
     return status;
 }
 
@@ -198,9 +225,7 @@ static glint_status halve(const exposure *x, double most_error, glint_error *err
         /* the later one first, so that the earlier one is halved next */
         for (int h = PAIR - 1; h >= 0 && !status; h--) {
             const double *half = halves[h];
-            /* halves that are no longer told apart in time are as good as can be */
-            const bool tiny = half[PANEL_FROM] + 1e-3 * half[PANEL_LENGTH] == half[PANEL_FROM];
-            if (resolved[h] && (half[PANEL_ERROR] <= most_error || tiny)) continue;
+            if (resolved[h] && (half[PANEL_ERROR] <= most_error || is_tiny(half))) continue;
             status = push(e, half[PANEL_FROM], half[PANEL_LENGTH], error);
             resolved[h] = false;
         }
@@ -257,10 +282,7 @@ static void replace_row(const exposure *x, double *sums, int k, const photometry
     double *material = rows->share_material + k * m->n_materials;
     double *component = rows->share_component + k * m->n_components;
     bool bright = false;
-    /* Centred just below the horizon, what light there is came through the air at the horizon. */
-    const double airmass = row->flags & GLINT_BELOW_HORIZON && row->elevation_rad < 0
-                               ? airmass_of(s, 0)
-                               : row->airmass;
+    const double airmass = airmass_of_light(s, row);
     for (int b = 0; b < s->n_bands; b++) {
         flux[b] = sums[b] / s->exposure_s;
         bright = bright || flux[b] > 0;

@@ -1,6 +1,7 @@
 #include "lightcurve/noise.h"
 
 #include "base/constants.h"
+#include "lightcurve/photometry.h"
 
 #include <math.h>
 
@@ -74,7 +75,7 @@ double noise_row_snr(const glint_scenario *s, const glint_row *row, int band)
                              .exposure_s = s->exposure_s,
                              .trail_rad =
                                  s->telescope.follows ? 0 : row->angular_rate_rad_s * s->exposure_s,
-                             .airmass = row->airmass,
+                             .airmass = airmass_of_light(s, row),
                              .height_m = row->site_height_m};
     noise_terms terms;
     noise_of(&s->telescope, band, &view, &terms);

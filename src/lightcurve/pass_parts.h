@@ -39,6 +39,32 @@ typedef struct event_list {
 glint_status event_list_add(event_list *list, watch *w, glint_event_kind kind, double t_s,
                             glint_error *error);
 
+/* The angles whose signs tell light from shadow and day from night. */
+typedef enum edge_kind {
+    EDGE_UMBRA,    /* > 0: some of the Sun is seen */
+    EDGE_PENUMBRA, /* > 0: all of it */
+    EDGE_MOON,     /* > 0: the Moon covers nothing of it */
+    EDGE_DARKNESS, /* > 0: the site is dark */
+    N_EDGES
+} edge_kind;
+
+/* Times at which one edge is crossed during a pass, and the side at its start. */
+typedef struct edge {
+    root_list at;
+    bool above_at_start;
+} edge;
+
+/* Looks for the moments at which an edge is crossed. Errors: of the sighting; GLINT_INTERNAL
+ * (memory); so below. */
+glint_status pass_edge_find(watch *w, const pass_span *span, edge_kind kind, edge *out,
+                            glint_error *error);
+/* Appends the events of an edge's crossings. */
+glint_status pass_edge_events(watch *w, const edge *e, edge_kind kind, event_list *out,
+                              glint_error *error);
+/* Intervals of a pass in which an edge is above, as pairs of from and to. */
+glint_status pass_edge_spans(const edge *e, const pass_span *span, root_list *out,
+                             glint_error *error);
+
 /* Brightness at any moment; one for each thread. */
 typedef struct light_meter {
     watch *w; /* borrowed */
@@ -53,6 +79,21 @@ void light_meter_free(light_meter *meter);
 /* Magnitudes in the first band at n <= TILE times; HUGE_VAL where nothing is seen. */
 glint_status light_meter_read(light_meter *meter, const double *t_s, int n, double *magnitude,
                               glint_error *error);
+
+/* The brightest moment so far. */
+typedef struct brightest {
+    double t_s, magnitude;
+} brightest;
+
+/* Looks through one sunlit span for what is brighter than *best: samples every second (more, so
+ * that there are 64 at least; fewer, so that there are 20 000 at most, or where little moves), then
+ * the minima among them by golden section. Errors: of light_meter_read; GLINT_INTERNAL (memory). */
+glint_status pass_brightest_in_span(light_meter *meter, double from_s, double to_s, brightest *best,
+                                    glint_error *error);
+/* Gives the events from number `first` on their magnitudes. Flashes among them tell of bright
+ * moments that samples may have missed: they go into *best (NULL: not wanted). */
+glint_status pass_measure_events(light_meter *meter, event_list *events, size_t first,
+                                 brightest *best, glint_error *error);
 
 /* Flat shiny surfaces that look the same way: those that flash together. */
 typedef struct mirror {

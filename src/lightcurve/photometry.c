@@ -26,6 +26,12 @@ double airmass_of(const glint_scenario *s, double elevation)
                                            : airmass_kasten_young(elevation);
 }
 
+double airmass_of_light(const glint_scenario *s, const glint_row *row)
+{
+    const bool below = row->flags & GLINT_BELOW_HORIZON && row->elevation_rad < 0;
+    return below ? airmass_of(s, 0) : row->airmass;
+}
+
 /* sin p + (pi - p) cos p without the loss of digits near pi: sin q - q cos q, q = pi - p. */
 static double lambert_sphere(double phase_angle)
 {

@@ -11,6 +11,10 @@ double airmass_kasten_young(double elevation);
 /* By the scenario's choice. */
 double airmass_of(const glint_scenario *s, double elevation);
 
+/* Of the light in a row's magnitude: the row's own airmass; that at the horizon where the row's
+ * time lies below it, and the light of an exposure came from above. */
+double airmass_of_light(const glint_scenario *s, const glint_row *row);
+
 /* The same by Pickering 2002, DIO 12, 20: nearer to what the ray sees within some degrees of the
  * horizon. */
 double airmass_pickering(double elevation);

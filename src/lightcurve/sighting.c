@@ -225,6 +225,15 @@ double sighting_sunlit(const glint_scenario *s, viewer *v, const sighting *seen,
     return past_earth * beside_moon;
 }
 
+double sighting_moon_gap(const glint_scenario *s, viewer *v, const sighting *seen)
+{
+    const moment *m = &seen->moment;
+    double moon[3];
+    moon_position(&s->clock, m->t_s, &v->moon, moon);
+    sub3(moon, m->r_m, moon);
+    return eclipse_moon_gap(moon, m->sun, seen->sun_distance_m);
+}
+
 void sighting_moon(const glint_scenario *s, viewer *v, const sighting *seen, double t_s,
                    double moon_m[3])
 {

@@ -54,6 +54,9 @@ double sighting_sun_elevation(const glint_scenario *s, const scenario_observer *
 /* Visible fraction of the solar disc past the Earth and the Moon, as the satellite sees it.
  * moon_covers: whether the Moon takes a part of it; NULL allowed. */
 double sighting_sunlit(const glint_scenario *s, viewer *v, const sighting *seen, bool *moon_covers);
+/* Angle between the rims of Moon and Sun as the satellite sees them, rad; negative where the Moon
+ * covers a part of the Sun. */
+double sighting_moon_gap(const glint_scenario *s, viewer *v, const sighting *seen);
 /* The Moon at reception, m, from the observer. */
 void sighting_moon(const glint_scenario *s, viewer *v, const sighting *seen, double t_s,
                    double moon_m[3]);

@@ -53,6 +53,7 @@ glint_status tile_worker_make(const glint_scenario *s, const visibility *plan, t
     const model *m = &s->satellite.model;
     const size_t n_components = (size_t)m->n_components;
     *w = (tile_worker){.plan = plan};
+    source_disc_start(&w->disc, s->solar_disc == SOLAR_LIMB_DARKENED);
     w->lights = aligned(n_components, sizeof *w->lights);
     w->x = aligned((size_t)m->n_bands * (size_t)m->n_spans * TILE, sizeof *w->x);
     w->geometry.component_gcrs = calloc(n_components, sizeof *w->geometry.component_gcrs);
@@ -81,17 +82,17 @@ void tile_worker_free(tile_worker *w)
     *w = (tile_worker){0};
 }
 
-/* Fills in the Sun's disc in every lane, a point in those that nobody asks for; false where all of
- * them take the Sun for a point. */
-static bool fill_disc(const glint_scenario *s, const tile_geometry *tile, source_disc *disc)
+/* The Sun's disc in every lane, a point in those that nobody asks for; NULL where all of them take
+ * the Sun for a point. */
+static const source_disc *disc_of(const glint_scenario *s, tile_worker *w)
 {
-    if (s->solar_disc == SOLAR_POINT) return false;
-    source_disc_start(disc, s->solar_disc == SOLAR_LIMB_DARKENED);
+    const tile_geometry *tile = &w->tile;
+    if (s->solar_disc == SOLAR_POINT) return NULL;
     for (int k = 0; k < TILE; k++) {
         const bool bright = k < tile->n && tile->seen[k] && tile->sun_weight[k] > 0;
-        source_disc_set(disc, k, bright ? tile->sun_radius[k] : 0);
+        source_disc_set(&w->disc, k, bright ? tile->sun_radius[k] : 0);
     }
-    return true;
+    return &w->disc;
 }
 
 glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const photometry_rows *rows,
@@ -101,11 +102,8 @@ glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const phot
         const glint_status status = shadows_fill(s, w, error);
         if (status) return status;
     }
-    if (w->tile.any_bright) {
-        source_disc disc;
-        const bool is_disc = fill_disc(s, &w->tile, &disc);
-        model_sum(&s->satellite.model, w->lights, is_disc ? &disc : NULL, w->visible, w->x);
-    }
+    if (w->tile.any_bright)
+        model_sum(&s->satellite.model, w->lights, disc_of(s, w), w->visible, w->x);
     bool has_earth = false;
     if (s->earth.source) {
         const glint_status status = earthshine_fill(s, w->plan, w->scratch, &w->geometry, &w->tile,

@@ -15,6 +15,7 @@ typedef struct tile_worker {
     visibility_scratch *scratch; /* owned; NULL without shadows */
     double *visible;             /* owned; n_facets x TILE; NULL without shadows */
     earthshine earth;
+    source_disc disc; /* the Sun's, but for the radii, which every tile sets */
 } tile_worker;
 
 /* Plans the shadows that parts cast on each other; *out is NULL where none are wanted or none can

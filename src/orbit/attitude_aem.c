@@ -403,6 +403,14 @@ static void quaternion_of(const aem_reading *a, const double *numbers, double q[
     if (a->back != a->a_is_body) quat_conjugate(q, q);
 }
 
+/* How fast the body turns at a row, rad/s, as far as its numbers say (in XML, of SPIN alone). */
+static double rate_of(const aem_reading *a, const aem_row *row)
+{
+    if (a->type->kind == AEM_SPIN) return fabs(row->numbers[3]) * DEG;
+    if (!strstr(a->type->name, "/ANGVEL")) return 0;
+    return norm3(row->numbers + a->type->n_numbers - 3) * DEG;
+}
+
 static void add_row(aem_reading *a, const aem_row *row)
 {
     double tt_jd[2], q[4];
@@ -412,6 +420,7 @@ static void add_row(aem_reading *a, const aem_row *row)
         return;
     }
     quaternion_of(a, row->numbers, q);
+    a->r->told_rad_s = rate_of(a, row);
     attitude_table_add_row(a->r, jd_difference_s(tt_jd, a->r->clock->tt_jd), q, row->at);
 }
 
@@ -458,8 +467,8 @@ static const char *const *names_of(aem_kind kind, int *n)
 {
     static const char *const quaternion[] = {"Q1", "Q2", "Q3", "QC"};
     static const char *const euler[] = {"ANGLE_1", "ANGLE_2", "ANGLE_3"};
-    static const char *const spin[] = {"SPIN_ALPHA", "SPIN_DELTA", "SPIN_ANGLE"};
-    *n = kind == AEM_QUATERNION ? 4 : 3;
+    static const char *const spin[] = {"SPIN_ALPHA", "SPIN_DELTA", "SPIN_ANGLE", "SPIN_ANGLE_VEL"};
+    *n = kind == AEM_EULER ? 3 : 4;
     return kind == AEM_QUATERNION ? quaternion : kind == AEM_EULER ? euler : spin;
 }
 
@@ -480,9 +489,9 @@ static void take_element(aem_reading *a, const ccsds_item *item, aem_row *row)
             attitude_table_fail(a->r, at_item(a, item), "%s stands twice in one row",
                                 item->keyword);
         row->has[k] = true;
+        const char *unit = a->type->kind == AEM_QUATERNION ? NULL : k < 3 ? "deg" : "deg/s";
         const glint_status status =
-            ccsds_number(&a->file, item, a->type->kind == AEM_QUATERNION ? NULL : "deg",
-                         &row->numbers[k], a->r->errors);
+            ccsds_number(&a->file, item, unit, &row->numbers[k], a->r->errors);
         if (status) a->r->status = status;
         return;
     }

@@ -1,6 +1,7 @@
 #include "orbit/attitude_table.h"
 
 #include "base/constants.h"
+#include "base/sorted.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "orbit/attitude_law.h"
@@ -114,7 +115,8 @@ void attitude_table_add_row(attitude_reading *r, double t_s, const double q[4], 
         t->q[t->n][i] = q[i] / norm;
     t->t_s[t->n] = t_s;
     if (span->n > 0) {
-        const double angle = angle_between(t->q[t->n - 1], t->q[t->n]);
+        const double told = r->told_rad_s * (t_s - t->t_s[t->n - 1]);
+        const double angle = fmax(angle_between(t->q[t->n - 1], t->q[t->n]), told);
         if (angle > r->widest_rad) {
             r->widest_rad = angle;
             r->widest_where = where;
@@ -292,16 +294,10 @@ glint_status attitude_table_read(const char *path, const char *object,
  * counts. */
 static const attitude_span *span_at(const attitude_table *t, double t_s)
 {
-    int lo = 0, hi = t->n_spans; /* spans before lo begin at t_s or earlier, those from hi later */
-    while (lo < hi) {
-        const int middle = lo + (hi - lo) / 2;
-        if (t->spans[middle].from_s <= t_s)
-            lo = middle + 1;
-        else
-            hi = middle;
-    }
-    if (lo > 0 && t_s <= t->spans[lo - 1].to_s + TIME_SLACK_S) return &t->spans[lo - 1];
-    if (lo < t->n_spans && t_s >= t->spans[lo].from_s - TIME_LEAD_S) return &t->spans[lo];
+    const int next =
+        (int)sorted_up_to(&t->spans->from_s, (size_t)t->n_spans, sizeof *t->spans, t_s);
+    if (next > 0 && t_s <= t->spans[next - 1].to_s + TIME_SLACK_S) return &t->spans[next - 1];
+    if (next < t->n_spans && t_s >= t->spans[next].from_s - TIME_LEAD_S) return &t->spans[next];
     return NULL;
 }
 
@@ -329,15 +325,8 @@ static glint_status outside(const attitude_table *t, double t_s, glint_error *er
 /* Last row of the span, but for its last one, that is not after t_s; its first one before that. */
 static long row_before(const attitude_table *t, const attitude_span *span, double t_s)
 {
-    long lo = span->first, hi = span->first + span->n - 1;
-    while (hi - lo > 1) {
-        const long middle = lo + (hi - lo) / 2;
-        if (t->t_s[middle] <= t_s)
-            lo = middle;
-        else
-            hi = middle;
-    }
-    return lo;
+    const double *rows_s = t->t_s + span->first;
+    return span->first + (long)sorted_interval(rows_s, (size_t)span->n, sizeof *rows_s, t_s);
 }
 
 /* The quaternion of a span at a moment: v_frame = q v_body q*. */

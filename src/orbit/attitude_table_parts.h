@@ -21,7 +21,10 @@ typedef struct attitude_reading {
     glint_errors *errors;
     glint_status status; /* the worst so far */
     file_frame frame;    /* of the span being read */
-    /* the two rows of one span between which the body turns most, by the shortest way */
+    double
+        told_rad_s; /* how fast the body turns at the next row, as the file says; 0: it does not */
+    /* the two rows of one span between which the body turns most: by the shortest way or, where
+     * that is more, by what the file says of its rate */
     double widest_rad;
     place widest_where;
 } attitude_reading;

@@ -302,11 +302,6 @@ static const char *const SCALE_NAMES[] = {
     [SCALE_TDB] = "TDB", [SCALE_GPS] = "GPS",
 };
 
-const char *time_scale_name(time_scale scale)
-{
-    return SCALE_NAMES[scale];
-}
-
 glint_status time_scale_find(const char *name, place where, time_scale *out, glint_error *error)
 {
     for (int k = 0; k <= SCALE_GPS; k++)

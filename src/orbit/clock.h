@@ -30,8 +30,6 @@ typedef enum time_scale { SCALE_UTC, SCALE_TAI, SCALE_TT, SCALE_TDB, SCALE_GPS }
  * scale that is not one of these; of UT1, GMST and those of other bodies or clocks the message says
  * what is missing. */
 glint_status time_scale_find(const char *name, place where, time_scale *out, glint_error *error);
-/* "UTC": for messages. */
-const char *time_scale_name(time_scale scale);
 /* Reads a moment of a scale, written as in utc_parse (offsets of zones only in UTC), as TT in two
  * parts, the day and the rest. TDB: by eraDtdb for the Earth's centre, to 1e-5 s. Errors as in
  * utc_parse. */

@@ -84,24 +84,6 @@ glint_status earth_site_at(double latitude, double longitude, double height_m, e
     return GLINT_OK;
 }
 
-void earth_site_look(const earth_site *site, const double r_itrs_m[3], double *azimuth,
-                     double *elevation, double *range_m)
-{
-    double enu[3];
-    const double *r = site->enu_itrs;
-    const double x = r_itrs_m[0] - site->r_itrs_m[0], y = r_itrs_m[1] - site->r_itrs_m[1],
-                 z = r_itrs_m[2] - site->r_itrs_m[2];
-    for (int i = 0; i < 3; i++)
-        enu[i] = r[3 * i] * x + r[3 * i + 1] * y + r[3 * i + 2] * z;
-    const double level2 = enu[0] * enu[0] + enu[1] * enu[1];
-    const double angle = std::atan2(enu[0], enu[1]);
-    // A tiny negative angle plus 2 pi rounds to 2 pi, which is outside the range.
-    const double turned = angle < 0.0 ? angle + TWO_PI : angle;
-    *azimuth = turned < TWO_PI ? turned : 0.0;
-    *elevation = std::atan2(enu[2], std::sqrt(level2));
-    *range_m = std::sqrt(level2 + enu[2] * enu[2]);
-}
-
 void earth_geodetic(const double r_itrs_m[3], double *latitude, double *longitude, double *height_m)
 {
     reverse(r_itrs_m, latitude, longitude, height_m);

@@ -20,9 +20,6 @@ typedef struct earth_site {
  * refuses (not for finite values in range). */
 glint_status earth_site_at(double latitude, double longitude, double height_m, earth_site *out,
                            glint_error *error);
-/* Azimuth (0..2 pi, from north through east), elevation (rad) and range (m) of an ITRS point. */
-void earth_site_look(const earth_site *site, const double r_itrs_m[3], double *azimuth,
-                     double *elevation, double *range_m);
 /* Geodetic latitude, longitude (rad) and height (m) of an ITRS point. */
 void earth_geodetic(const double r_itrs_m[3], double *latitude, double *longitude,
                     double *height_m);

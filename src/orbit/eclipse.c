@@ -27,6 +27,12 @@ static double limb_angle(const double r[3], const double p[3], const double pole
     return atan2(rr, norm3(r) * (rp + root));
 }
 
+/* Angular radius of a sphere, rad. */
+static double disc_radius(double radius_m, double distance_m)
+{
+    return asin(fmin(1.0, radius_m / distance_m));
+}
+
 double eclipse_sunlit_fraction(const double r_m[3], const double sun[3], double sun_distance_m,
                                const double pole[3], double limb_darkening)
 {
@@ -64,7 +70,7 @@ void eclipse_discs_at(const double r_m[3], const double sun[3], double sun_dista
         across[smallest3(down)] = 1.0;
         perp3(across, down, side);
     }
-    out->sun = asin(fmin(1.0, SUN_RADIUS_M / sun_distance_m));
+    out->sun = disc_radius(SUN_RADIUS_M, sun_distance_m);
     out->earth = limb_angle(r, side, pole);
     out->separation = atan2(sin_d, dot3(sun, down));
 }
@@ -78,9 +84,15 @@ double eclipse_moon_fraction(const double moon_m[3], const double sun[3], double
      * than 5.3 deg, and 0.99 is the cosine of 8.1 deg. */
     static const double FAR_M = 2e7, APART = 0.99;
     if (distance_m > FAR_M && dot3(moon_m, sun) < APART * distance_m) return 1.0;
-    const double sun_radius = asin(fmin(1.0, SUN_RADIUS_M / sun_distance_m));
-    const double moon_radius = asin(MOON_RADIUS_M / distance_m);
-    return eclipse_disc_light(sun_radius, moon_radius, angle3(moon_m, sun), limb_darkening);
+    return eclipse_disc_light(disc_radius(SUN_RADIUS_M, sun_distance_m),
+                              disc_radius(MOON_RADIUS_M, distance_m), angle3(moon_m, sun),
+                              limb_darkening);
+}
+
+double eclipse_moon_gap(const double moon_m[3], const double sun[3], double sun_distance_m)
+{
+    return angle3(moon_m, sun) - disc_radius(SUN_RADIUS_M, sun_distance_m) -
+           disc_radius(MOON_RADIUS_M, norm3(moon_m));
 }
 
 bool eclipse_earth_between(const double a_m[3], const double b_m[3], const double pole[3])

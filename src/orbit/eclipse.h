@@ -32,6 +32,10 @@ void eclipse_discs_at(const double r_m[3], const double sun[3], double sun_dista
 double eclipse_moon_fraction(const double moon_m[3], const double sun[3], double sun_distance_m,
                              double limb_darkening);
 
+/* Angle between the rims of the Moon's and the Sun's discs, rad; negative where the Moon covers a
+ * part of the Sun. Arguments as above; the point must be outside the Moon. */
+double eclipse_moon_gap(const double moon_m[3], const double sun[3], double sun_distance_m);
+
 /* True when the WGS84 ellipsoid stands between two points outside it; m from the geocentre; pole:
  * unit vector along the Earth's axis; all in one frame. Refraction is not modelled. */
 bool eclipse_earth_between(const double a_m[3], const double b_m[3], const double pole[3]);

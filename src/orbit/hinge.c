@@ -1,6 +1,7 @@
 #include "orbit/hinge.h"
 
 #include "base/constants.h"
+#include "base/sorted.h"
 #include "base/vec.h"
 #include "orbit/time_column.h"
 
@@ -110,15 +111,7 @@ static double track_angle(const hinge *h, const double target_parent[3])
 /* Last row, but for the very last one, that is not after t_s; the first one before that. */
 static long row_before(const hinge_table *t, double t_s)
 {
-    long lo = 0, hi = t->n - 1;
-    while (hi - lo > 1) {
-        const long middle = lo + (hi - lo) / 2;
-        if (t->t_s[middle] <= t_s)
-            lo = middle;
-        else
-            hi = middle;
-    }
-    return lo;
+    return (long)sorted_interval(t->t_s, (size_t)t->n, sizeof *t->t_s, t_s);
 }
 
 double hinge_next_change(const hinge *h, double t_s)

@@ -1,6 +1,7 @@
 #include "orbit/horizon.h"
 
 #include "base/constants.h"
+#include "base/sorted.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -68,15 +69,7 @@ void horizon_free(horizon *h)
 /* Number of points whose azimuth is at most this one. */
 static int points_up_to(const horizon *h, double azimuth)
 {
-    int lo = 0, hi = h->n;
-    while (lo < hi) {
-        const int middle = lo + (hi - lo) / 2;
-        if (h->points[middle].azimuth <= azimuth)
-            lo = middle + 1;
-        else
-            hi = middle;
-    }
-    return lo;
+    return (int)sorted_up_to(&h->points->azimuth, (size_t)h->n, sizeof *h->points, azimuth);
 }
 
 /* A straight piece of a mask: from point k to the next, whose azimuth is not below its own. */

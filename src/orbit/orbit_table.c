@@ -1,6 +1,7 @@
 #include "orbit/orbit_table.h"
 
 #include "base/constants.h"
+#include "base/sorted.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "orbit/frames.h"
@@ -257,16 +258,9 @@ static const table_segment *segment_at(const orbit_table *table, double t_s, gli
 /* First of the `count` nodes around t_s. */
 static size_t window_at(const table_segment *s, double t_s, size_t count)
 {
-    size_t lo = 0, hi = s->n - 1; /* nodes[lo] <= t_s < nodes[hi], or an end */
-    while (hi - lo > 1) {
-        const size_t middle = lo + (hi - lo) / 2;
-        if (s->nodes[middle].t_s > t_s)
-            hi = middle;
-        else
-            lo = middle;
-    }
+    const size_t at = sorted_interval(&s->nodes->t_s, s->n, sizeof *s->nodes, t_s);
     const size_t before = (count - 1) / 2;
-    const size_t first = lo > before ? lo - before : 0;
+    const size_t first = at > before ? at - before : 0;
     return first + count > s->n ? s->n - count : first;
 }
 

@@ -30,14 +30,6 @@ colour colour_oklab(double lightness, double a, double b)
                     encode(-0.0041960863 * l3 - 0.7034186147 * m3 + 1.7076147010 * s3)};
 }
 
-double colour_lightness(colour c)
-{
-    const double r = decode(c.red), g = decode(c.green), b = decode(c.blue);
-    return 0.2104542553 * cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b) +
-           0.7936177850 * cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b) -
-           0.0040720468 * cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-}
-
 /* The hues are a parabola in the plane of a and b through these, at t = 0, 1/2 and 1. */
 colour colour_scale(double t)
 {

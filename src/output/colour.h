@@ -10,8 +10,6 @@ typedef struct colour {
 /* From Oklab (Ottosson 2020, https://bottosson.github.io/posts/oklab): lightness 0 (black) to 1
  * (white), a towards red, b towards yellow. What lies outside of sRGB is clipped. */
 colour colour_oklab(double lightness, double a, double b);
-/* Lightness of a colour in Oklab. */
-double colour_lightness(colour c);
 
 /* A scale for numbers, 0 to 1 (clamped): from dark blue over red to a light yellow. Its lightness
  * rises evenly, so that the order of values is seen without the hues. */

@@ -85,9 +85,3 @@ void json_bool(json *j, const char *key, bool value)
     begin_element(j, key);
     text_add(j->out, value ? "true" : "false");
 }
-
-void json_null(json *j, const char *key)
-{
-    begin_element(j, key);
-    text_add(j->out, "null");
-}

@@ -22,6 +22,5 @@ void json_string(json *j, const char *key, const char *value);
 /* null where the value is not finite. */
 void json_number(json *j, const char *key, double value);
 void json_bool(json *j, const char *key, bool value);
-void json_null(json *j, const char *key);
 
 #endif

@@ -177,10 +177,11 @@ void read_geometry(reading *rd, const toml_node *table)
     reader_param(&r, &RANGE, &range_km);
     const bool has_table = reader_has(&r, "table"), has_sweep = reader_has(&r, "sweep"),
                has_rotate = reader_has(&r, "rotate");
-    if (has_table + has_sweep + has_rotate != 1)
+    const int sources = has_table + has_sweep + has_rotate;
+    if (sources != 1)
         reader_fail(&r, table->where,
                     "[geometry] has %s; expected exactly one of table, sweep, rotate",
-                    has_table + has_sweep + has_rotate ? "several sources" : "no source");
+                    sources ? "several sources" : "no source");
     else if (has_table)
         read_table(rd, &r, range_km);
     else if (has_sweep)
