@@ -330,7 +330,7 @@ static const int FACETS[] = {72, 1000, 10000};
 /* --- measuring --- */
 
 /* Rows after which lists have been made for most directions (visibility_sectors.h). */
-enum { WARM_ROWS = 500 };
+enum { WARM_ROWS = 2000 };
 
 typedef struct scene {
     model model;
