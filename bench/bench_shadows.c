@@ -10,11 +10,12 @@
  *   plates   plates in any position: nothing is closed, everything overlaps
  *
  * usage: bench_shadows [MODEL [FACETS]]     some cases instead of all
- * Prints a table: milliseconds of the plan; M facet-samples/s of the first rows, and of rows after
- * WARM_ROWS others; of these, ns a facet that is lit and seen, and percent of the time that goes
- * into looking from both directions, into finding candidates by the walk (an upper bound: lists
- * spare many walks), and into the rest: taking covers, cutting; how large a part of the lit and
- * seen area is left. */
+ * Prints a table: milliseconds of the plan; M facet-samples/s of the first rows, of a light curve
+ * of CURVE_ROWS rows in which the body turns by CURVE_STEP_DEG each, and of rows in any attitude
+ * after WARM_ROWS others; of these last, ns a facet that is lit and seen, and percent of the time
+ * that goes into looking from both directions, into finding candidates by the walk (an upper bound:
+ * lists spare many walks), and into the rest: taking covers, cutting; how large a part of the lit
+ * and seen area is left. */
 #include "draws.h"
 #include "timing.h"
 
@@ -331,6 +332,9 @@ static const int FACETS[] = {72, 1000, 10000};
 
 /* Rows after which lists have been made for most directions (visibility_sectors.h). */
 enum { WARM_ROWS = 2000 };
+/* Rows of a light curve: one turn. */
+enum { CURVE_ROWS = 720 };
+static const double CURVE_STEP_DEG = 0.5;
 
 typedef struct scene {
     model model;
@@ -341,7 +345,8 @@ typedef struct scene {
     double (*sun)[3], (*observer)[3]; /* owned; of all rows */
     double *visible;                  /* owned */
     view views[2];
-    int *nodes, *candidates; /* owned; for the walk */
+    int *nodes, *candidates;                      /* owned; for the walk */
+    double (*curve_sun)[3], (*curve_observer)[3]; /* owned; of CURVE_ROWS rows */
 } scene;
 
 static void fill(void *data)
@@ -351,6 +356,19 @@ static void fill(void *data)
         if (visibility_fill(s->plan, s->scratch, &s->pose, s->sun[k], s->observer[k], k % BRDF_TILE,
                             s->visible, NULL))
             fail("out of memory");
+}
+
+/* A light curve, with all that is found out on the way. */
+static void run_curve(void *data)
+{
+    scene *s = data;
+    visibility_scratch *scratch;
+    if (visibility_scratch_make(s->plan, &scratch, NULL)) fail("out of memory");
+    for (int k = 0; k < CURVE_ROWS; k++)
+        if (visibility_fill(s->plan, scratch, &s->pose, s->curve_sun[k], s->curve_observer[k],
+                            k % BRDF_TILE, s->visible, NULL))
+            fail("out of memory");
+    visibility_scratch_free(scratch);
 }
 
 /* Looks from both directions, and nothing else. */
@@ -394,6 +412,16 @@ static void make_directions(scene *s, int n)
         random_rotation(&state, turn);
         mat_vec(turn, sun, s->sun[k]);
         mat_vec(turn, observer, s->observer[k]);
+    }
+    s->curve_sun = allocate(CURVE_ROWS, sizeof *s->curve_sun);
+    s->curve_observer = allocate(CURVE_ROWS, sizeof *s->curve_observer);
+    for (int k = 0; k < CURVE_ROWS; k++) { /* about an axis that is none of the body's */
+        const double half = 0.5 * CURVE_STEP_DEG * DEG * k, part = sin(half) / sqrt(14.0);
+        const double q[4] = {cos(half), part, 2 * part, 3 * part};
+        double turn[9];
+        mat_from_quat(q, turn);
+        mat_vec(turn, sun, s->curve_sun[k]);
+        mat_vec(turn, observer, s->curve_observer[k]);
     }
 }
 
@@ -455,6 +483,8 @@ static void free_scene(scene *s)
     free(s->nodes);
     free(s->candidates);
     free(s->visible);
+    free(s->curve_sun);
+    free(s->curve_observer);
     free(s->sun);
     free(s->observer);
 }
@@ -477,16 +507,18 @@ static void run_case(const model_case *c, int n_facets)
     s.first = s.n, s.n = WARM_ROWS - s.n;
     fill(&s);
     s.first = WARM_ROWS, s.n = n_rows;
-    job jobs[3] = {
-        {.run = fill, .data = &s}, {.run = project, .data = &s}, {.run = walk, .data = &s}};
-    measure(jobs, 3, ROUNDS, AT_LEAST_S);
+    job jobs[4] = {{.run = fill, .data = &s},
+                   {.run = project, .data = &s},
+                   {.run = walk, .data = &s},
+                   {.run = run_curve, .data = &s}};
+    measure(jobs, 4, ROUNDS, AT_LEAST_S);
     double left;
     const double active = count_active(&s, &left), all_s = jobs[0].least;
     const double look = 100 * jobs[1].least / all_s, found = 100 * jobs[2].least / all_s - look;
-    printf("%-8s %6d %8d %8.2f %7.2f %7.2f %10.0f %5.0f %5.0f %5.0f %8.4f\n", c->name,
+    printf("%-8s %6d %8d %8.2f %7.2f %7.2f %7.2f %10.0f %5.0f %5.0f %5.0f %8.4f\n", c->name,
            s.model.n_facets, visibility_n_exposed(s.plan), plan_ms, first,
-           samples * n_rows / all_s * 1e-6, all_s / active * 1e9, look, found, 100 - look - found,
-           left);
+           samples * CURVE_ROWS / jobs[3].least * 1e-6, samples * n_rows / all_s * 1e-6,
+           all_s / active * 1e9, look, found, 100 - look - found, left);
     fflush(stdout);
     free_scene(&s);
 }
@@ -498,7 +530,8 @@ int main(int argc, char **argv)
         return 2;
     }
     int n_run = 0;
-    printf("model    facets  exposed  plan/ms   first   later  ns/active look%% walk%% rest%%     "
+    printf("model    facets  exposed  plan/ms   first   curve   later  ns/active look%% walk%% "
+           "rest%%     "
            "left\n");
     for (size_t m = 0; m < sizeof MODELS / sizeof *MODELS; m++)
         for (size_t f = 0; f < sizeof FACETS / sizeof *FACETS; f++) {
