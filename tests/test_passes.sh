@@ -62,6 +62,10 @@ sort -c times || fail 'events are not in order of time'
 [ "$(grep -c ',culmination,' out)" = "$(tail -n 1 out | awk -F, '{ print $(NF - 18) }')" ] ||
     fail 'not one culmination for every pass'
 has out 'other,Vienna,'
+lacks out 'time.step_s'
+t 'csv of several scenarios says what was set' 0 passes orbit.toml other.toml --format csv \
+    --set time.step_s=1800
+[ "$(grep -c 'time.step_s=1800' out)" = 1 ] || fail 'what was set is not told once'
 if command -v python3 >/dev/null; then
     t 'json of passes' 0 passes orbit.toml --format json
     python3 -c 'import json, sys
@@ -69,6 +73,12 @@ d = json.load(open("out"))
 assert d["passes"][0]["satellite"] == "no \"satellite\", one orbit"
 assert all(any(e["event"] == "culmination" for e in p["events"]) for p in d["passes"])' ||
         fail 'the JSON is not as expected'
+    t 'what was set is told of several scenarios, too' 0 passes orbit.toml other.toml --format json \
+        --set time.step_s=1800 --set time.duration_s=7200
+    python3 -c 'import json
+d = json.load(open("out"))
+assert d["set"] == ["time.step_s=1800", "time.duration_s=7200"], d["set"]
+assert len(d["scenario_hash"]) == len(d["orbit"]) == 2' || fail 'the JSON is not as expected'
     t 'json of an ephemeris' 0 ephemeris orbit.toml --format json
     python3 -c 'import json
 d = json.load(open("out"))
@@ -77,6 +87,8 @@ assert len(d["rows"]) == 25 and "q_w" not in d["rows"][0] and d["rows"][24]["t_s
 else
     echo 'SKIPPED: JSON: no python3'
 fi
+t 'help tells of both shadows' 0 passes --help
+has out 'the shadows of Earth and Moon'
 t 'no pass at all' 0 passes orbit.toml --set time.duration_s=1
 has out 'no pass'
 t 'an ephemeris' 0 ephemeris orbit.toml

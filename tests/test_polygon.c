@@ -150,6 +150,22 @@ START_TEST(test_polygon_uncovered_area_closed_forms)
 }
 END_TEST
 
+/* What turns on differences of abscissae: those that are all but none, and all but the largest. */
+START_TEST(test_polygon_uncovered_area_is_a_number_where_edges_are_all_but_upright)
+{
+    const ring square = rectangle(-1, -1, 1, 1);
+    for (int power = -300; power <= 0; power += 5) {
+        const double lean = pow(10, power);
+        const ring right = {4, {{0, -2}, {3, -2}, {3, 2}, {-lean, 2}}};
+        const ring two[] = {square, right};
+        const ring three[] = {square, right, rectangle(-2, -2, -0.5, 2)};
+        /* the edge goes from 3 lean/4 to lean/4 left of the middle */
+        assert_near(area_left(two, 2), 2.0 - lean, 1e-14);
+        if (lean < 0.5) assert_near(area_left(three, 3), 1.0 - lean, 1e-14);
+    }
+}
+END_TEST
+
 /* A convex ring: the hull of random points; on a grid, so that many edges lie on one line. */
 static ring random_ring(uint64_t *state, double reach, double size, double grid)
 {
@@ -236,6 +252,7 @@ int main(void)
     TCase *tc = tcase_create("core");
     tcase_set_timeout(tc, 60);
     tcase_add_test(tc, test_polygon_uncovered_area_closed_forms);
+    tcase_add_test(tc, test_polygon_uncovered_area_is_a_number_where_edges_are_all_but_upright);
     tcase_add_test(tc, test_polygon_uncovered_area_agrees_with_slabs);
     tcase_add_test(tc, test_polygon_uncovered_area_agrees_with_slabs_where_edges_coincide);
     tcase_add_test(tc, test_polygon_uncovered_area_does_not_depend_on_order_or_axes);

@@ -113,11 +113,11 @@ static const command commands[] = {
      .summary = "find passes over sites: rise, set, shadow, brightest moment, flashes",
      .details =
          "Finds when the satellite is above the horizon of a site (min_elevation_deg, its mask),\n"
-         "when it culminates, when it enters and leaves the Earth's shadow, and when the site is\n"
-         "dark, all to 1 ms; with an attitude and a satellite also when it is brightest, and when\n"
-         "a flat shiny surface mirrors the Sun to the observer. The step of the scenario plays no\n"
-         "part. Passes over several sites and of several scenarios become one table in order of\n"
-         "time.\n"
+         "when it culminates, when it enters and leaves the shadows of Earth and Moon, and when\n"
+         "the site is dark, all to 1 ms; with an attitude and a satellite also when it is\n"
+         "brightest, and when a flat shiny surface mirrors the Sun to the observer. The step of\n"
+         "the scenario plays no part. Passes over several sites and of several scenarios become\n"
+         "one table in order of time.\n"
          "\n"
          "[attitude] and [satellite] may be absent: there is no brightness then.",
      .example = "glint passes scenarios/iss-vienna.toml --set time.end=2025-07-27T19:10:00Z",

@@ -448,8 +448,9 @@ typedef struct four_edges {
     double4 left_x, left_y, right_x, slope, sign;
 } four_edges;
 
-/* Differences of abscissae up to this are none: slopes stay finite. */
-#define UPRIGHT 1e-290
+/* Differences of abscissae up to this are none: squares of heights on the lines through edges, far
+ * from them too, stay finite. */
+#define UPRIGHT 1e-100
 
 /* The edges of a ring by fours, the last point again where there is none left. */
 CLONES static void find_edges(const point2 *ring, int n, four_edges *out)

@@ -76,11 +76,6 @@ typedef struct disc_queue {
     double sum[BRDF_TILE]; /* by lane, m^2/sr */
 } disc_queue;
 
-/* The same for a disc whose size and distance from the lobe's top are known, in widths of the lobe:
- * any rule but DISC_SET. */
-int disc_rule_at(const disc_sample *sample, const double i[3], const double r[3], double size,
-                 double distance);
-
 /* Adds the mean over the disc, by that rule, of a facet's light; scale: of source_disc. */
 void disc_queue_push(disc_queue *q, const brdf_material *material, const disc_rule *rule,
                      double scale, int lane, const double i[3], const double r[3], double area_m2);

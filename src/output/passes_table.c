@@ -247,45 +247,71 @@ static void add_event_row(text *t, const glint_passes *of, const glint_pass *pas
     text_char(t, '\n');
 }
 
-/* The scenarios whose passes stand in one table. */
-typedef struct merged {
-    const glint_passes *const *passes;
-    size_t n;
-} merged;
+/* What the header of a table says, of one scenario or of several. */
+typedef struct told_fact {
+    const char *key, *value; /* borrowed */
+} told_fact;
 
-/* Fact k with that key, of all scenarios one after the other. */
-static bool fact_with_key(const merged *all, const char *wanted, size_t k, const char **value)
+typedef struct header {
+    told_fact *items; /* owned */
+    size_t n;
+} header;
+
+/* Adds the facts with a key, of all scenarios one after the other; once: without those that are
+ * there already. */
+static void take_facts(header *h, const glint_passes *const *passes, size_t n, const char *wanted,
+                       bool once)
 {
-    const char *key;
-    for (size_t i = 0; i < all->n; i++)
-        for (size_t f = 0; glint_passes_fact(all->passes[i], f, &key, value); f++)
-            if (string_equal(key, wanted) && k-- == 0) return true;
-    return false;
+    const char *key, *value;
+    const size_t begun = h->n;
+    for (size_t i = 0; i < n; i++)
+        for (size_t f = 0; glint_passes_fact(passes[i], f, &key, &value); f++) {
+            bool is_new = string_equal(key, wanted);
+            for (size_t k = begun; k < h->n && is_new && once; k++)
+                is_new = !string_equal(h->items[k].value, value);
+            if (is_new) h->items[h->n++] = (told_fact){key, value};
+        }
 }
 
-/* All that is known of one scenario; of several, what they are and where they come from, and what
- * holds for all. */
+/* All that is known of one scenario; of several, what they are and where they come from, what was
+ * set, as a rule alike for all, and what holds for all. False when memory is out. */
+static bool gather_facts(const glint_passes *const *passes, size_t n, header *out)
+{
+    static const char *const KEYS[] = {"title", "orbit", "observer", "observers"};
+    size_t all = 2;
+    told_fact own;
+    for (size_t i = 0; i < n; i++)
+        for (size_t f = 0; glint_passes_fact(passes[i], f, &own.key, &own.value); f++)
+            all++;
+    *out = (header){calloc(all, sizeof *out->items), 0};
+    if (!out->items) return false;
+    if (n == 1) {
+        for (; glint_passes_fact(passes[0], out->n, &own.key, &own.value); out->n++)
+            out->items[out->n] = own;
+        return true;
+    }
+    out->items[out->n++] = (told_fact){"glint_version", glint_version()};
+    out->items[out->n++] = (told_fact){"time_scale", "utc is the reception at the observer"};
+    take_facts(out, passes, n, "scenario_hash", false);
+    take_facts(out, passes, n, "set", true);
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++)
+        take_facts(out, passes, n, KEYS[k], false);
+    return true;
+}
+
 static bool fact_of(const void *of, size_t k, const char **key, const char **value)
 {
-    static const char *const KEYS[] = {"scenario_hash", "title", "orbit", "observer", "observers"};
-    const merged *all = of;
-    if (all->n == 1) return glint_passes_fact(all->passes[0], k, key, value);
-    *key = k == 0 ? "glint_version" : "time_scale";
-    *value = k == 0 ? glint_version() : "utc is the reception at the observer";
-    if (k < 2) return true;
-    k -= 2;
-    for (size_t i = 0; i < sizeof KEYS / sizeof *KEYS; i++)
-        for (size_t n = 0; fact_with_key(all, KEYS[i], n, value); n++) {
-            *key = KEYS[i];
-            if (k-- == 0) return true;
-        }
-    return false;
+    const header *h = of;
+    if (k >= h->n) return false;
+    *key = h->items[k].key;
+    *value = h->items[k].value;
+    return true;
 }
 
-static void write_csv(const listed_pass *list, size_t n, const merged *all, text *t)
+static void write_csv(const listed_pass *list, size_t n, const header *facts, text *t)
 {
     ecsv_begin(t, COLUMNS, N_COLUMNS);
-    ecsv_facts(t, fact_of, all);
+    ecsv_facts(t, fact_of, facts);
     ecsv_end(t, COLUMNS, N_COLUMNS);
     for (size_t k = 0; k < n; k++)
         for (size_t i = 0; i < list[k].pass->n_events; i++)
@@ -334,11 +360,11 @@ static void add_json_event(json *j, const glint_passes *of, const glint_pass_eve
     json_end(j, '}');
 }
 
-static void write_json(const listed_pass *list, size_t n, const merged *all, text *t)
+static void write_json(const listed_pass *list, size_t n, const header *facts, text *t)
 {
     json j = {.out = t};
     json_object(&j, NULL);
-    json_facts(&j, fact_of, all);
+    json_facts(&j, fact_of, facts);
     json_list(&j, "passes");
     for (size_t k = 0; k < n; k++) {
         const glint_pass *p = list[k].pass;
@@ -366,21 +392,26 @@ glint_status glint_passes_write(const glint_passes *const *passes, size_t n, gli
     size_t n_list;
     for (size_t k = 0; path && k < n; k++)
         if (glint_passes_reads(passes[k], path)) return out_file_is_input(path, error);
-    const merged all = {passes, n};
     listed_pass *list = merge(passes, n, &n_list);
     if (!list) return error_no_memory(error);
+    header facts;
+    if (!gather_facts(passes, n, &facts)) {
+        free(list);
+        return error_no_memory(error);
+    }
     text t = {0};
     switch (format) {
     case GLINT_FORMAT_TABLE:
         write_people(list, n_list, &t);
         break;
     case GLINT_FORMAT_CSV:
-        write_csv(list, n_list, &all, &t);
+        write_csv(list, n_list, &facts, &t);
         break;
     case GLINT_FORMAT_JSON:
-        write_json(list, n_list, &all, &t);
+        write_json(list, n_list, &facts, &t);
         break;
     }
+    free(facts.items);
     free(list);
     const glint_status status =
         t.failed ? error_no_memory(error) : glint_text_write(path, t.data, t.length, error);
