@@ -1,5 +1,6 @@
 # Joining objects to one in which all names but those that begin with glint_ are local, so that a static
-# library takes no other name from the programs it is linked into.
+# library takes no other name from the programs it is linked into. With the address sanitizer, what it
+# is told of fonts (output/picture.c) keeps its names too: it is found by them.
 
 # GLINT_CAN_PRELINK: GNU ld or a linker that knows its options, and objcopy. Not with link-time
 # optimisation: its objects hold no code yet. Sections that C++ shares between objects (COMDAT groups)
@@ -21,7 +22,8 @@ function(glint_prelink object objects)
     add_custom_command(OUTPUT ${object}
         COMMAND ${CMAKE_C_COMPILER} ${flags} -r -nostdlib -Wl,--force-group-allocation
             -o ${object} ${objects}
-        COMMAND ${CMAKE_OBJCOPY} --wildcard --keep-global-symbol=glint_* ${object}
+        COMMAND ${CMAKE_OBJCOPY} --wildcard --keep-global-symbol=glint_*
+            --keep-global-symbol=__lsan_default_* ${object}
         DEPENDS ${objects} COMMAND_EXPAND_LISTS VERBATIM
         COMMENT "Joining the objects of libglint")
     set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
