@@ -6,7 +6,6 @@
 #include "table.h"
 
 #include <stdint.h>
-#include <time.h>
 
 static const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, z_axis[3] = {0, 0, 1};
 
@@ -705,10 +704,10 @@ START_TEST(test_visibility_roof_of_strips_leaves_nothing)
 }
 END_TEST
 
-/* Tens of thousands of triangles at one edge, all in one place, over a floor: the plan is made in a
- * moment (in minutes, if each was held against each), and the floor keeps what one triangle leaves.
- * The Sun and the observer stand overhead. */
-START_TEST(test_visibility_edge_of_very_many_facets_takes_no_time)
+/* Tens of thousands of triangles at one edge, all in one place, over a floor, which keeps what one
+ * triangle leaves. If each was held against each, the plan would take minutes, longer than these
+ * tests may. The Sun and the observer stand overhead. */
+START_TEST(test_visibility_edge_of_very_many_facets_leaves_what_one_leaves)
 {
     enum { FACETS = 40000 };
     scene *s = scene_new();
@@ -721,9 +720,7 @@ START_TEST(test_visibility_edge_of_very_many_facets_takes_no_time)
         shape_material(&spec, "material", 0);
         shape_add(&spec, 0, &s->facets);
     }
-    const double from_s = (double)clock() / CLOCKS_PER_SEC;
     scene_plan(s, 1);
-    assert_near((double)clock() / CLOCKS_PER_SEC - from_s, 0.0, 10.0);
     assert_near(fraction_for(s, 0, z_axis, z_axis), 1 - 0.5 / 4, 1e-14);
     scene_free(s);
 }
@@ -932,7 +929,7 @@ static Suite *visibility_suite(void)
     tcase_add_test(touching, test_visibility_nested_bodies_show_the_outer_one);
     tcase_add_test(touching, test_visibility_slivers_add_up_to_the_floor);
     tcase_add_test(touching, test_visibility_roof_of_strips_leaves_nothing);
-    tcase_add_test(touching, test_visibility_edge_of_very_many_facets_takes_no_time);
+    tcase_add_test(touching, test_visibility_edge_of_very_many_facets_leaves_what_one_leaves);
     tcase_add_test(touching, test_visibility_corner_through_the_floor_hides_its_section);
     tcase_add_test(touching, test_visibility_along_edges_is_continuous);
     tcase_add_test(touching, test_visibility_random_bodies_are_symmetric_and_continuous);
