@@ -99,6 +99,14 @@ static double fraction_for(scene *s, int k, const double sun[3], const double ob
     return fraction(s, k);
 }
 
+static void add_facet(scene *s, const double (*points)[3], int n)
+{
+    primitive_spec spec = shape("facet");
+    shape_points(&spec, points, n);
+    shape_material(&spec, "material", 0);
+    shape_add(&spec, 0, &s->facets);
+}
+
 /* Adds a plate that faces along z. */
 static void add_plate(scene *s, double a_m, double b_m, double x, double y, double z)
 {
@@ -650,10 +658,7 @@ START_TEST(test_visibility_slivers_add_up_to_the_floor)
         const double from = -5 + 10.0 * (k / 2) / (SLIVERS / 2.0), to = from + 20.0 / SLIVERS;
         const double up[3][3] = {{from, -5, 0}, {to, -5, 0}, {to, 5, 0}};
         const double down[3][3] = {{from, -5, 0}, {to, 5, 0}, {from, 5, 0}};
-        primitive_spec spec = shape("facet");
-        shape_points(&spec, k % 2 ? down : up, 3);
-        shape_material(&spec, "material", 0);
-        shape_add(&spec, 0, &s->facets);
+        add_facet(s, k % 2 ? down : up, 3);
     }
     add_box(s, 0, lo, hi);
     scene_plan(s, 1);
@@ -665,6 +670,42 @@ START_TEST(test_visibility_slivers_add_up_to_the_floor)
             sum += fraction(s, k) / SLIVERS;
         assert_near(sum, floor_around_cube(1.6, 1.6, sun), 1e-12);
     }
+    scene_free(s);
+}
+END_TEST
+
+/* A polygon of many sides inside a ring of triangles over it, which is the least bit wider:
+ * overhead light passes the ring by. Each second triangle points at the polygon, and its edges go
+ * on in others: only a side of the polygon tells that it covers nothing. */
+START_TEST(test_visibility_ring_around_a_polygon_of_many_sides_hides_nothing)
+{
+    enum { SIDES = 24 };
+    double inner[SIDES][3], outer[SIDES][3], disc[SIDES][3];
+    scene *s = scene_new();
+    for (int k = 0; k < SIDES; k++) {
+        const double a = TWO_PI * k / SIDES, b = TWO_PI * (k + 0.5) / SIDES;
+        const double own[3][3] = {{cos(a), sin(a), 0},
+                                  {1.05 * cos(a), 1.05 * sin(a), 1},
+                                  {1.4 * cos(b), 1.4 * sin(b), 1}};
+        copy3(own[0], disc[k]);
+        copy3(own[1], inner[k]);
+        copy3(own[2], outer[k]);
+    }
+    add_facet(s, (const double(*)[3])disc, SIDES);
+    for (int k = 0; k < SIDES; k++) {
+        const int next = (k + 1) % SIDES;
+        double triangle[2][3][3];
+        copy3(inner[k], triangle[0][0]);
+        copy3(outer[k], triangle[0][1]);
+        copy3(inner[next], triangle[0][2]);
+        copy3(inner[next], triangle[1][0]);
+        copy3(outer[k], triangle[1][1]);
+        copy3(outer[next], triangle[1][2]);
+        for (int j = 0; j < 2; j++)
+            add_facet(s, (const double(*)[3])triangle[j], 3);
+    }
+    scene_plan(s, 1);
+    assert_near(fraction_for(s, 0, z_axis, z_axis), 1.0, 0.0);
     scene_free(s);
 }
 END_TEST
@@ -715,10 +756,7 @@ START_TEST(test_visibility_edge_of_very_many_facets_leaves_what_one_leaves)
     for (int k = 0; k < FACETS; k++) { /* half of them face down */
         const double triangle[2][3][3] = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
                                           {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}};
-        primitive_spec spec = shape("facet");
-        shape_points(&spec, triangle[k % 2], 3);
-        shape_material(&spec, "material", 0);
-        shape_add(&spec, 0, &s->facets);
+        add_facet(s, triangle[k % 2], 3);
     }
     scene_plan(s, 1);
     assert_near(fraction_for(s, 0, z_axis, z_axis), 1 - 0.5 / 4, 1e-14);
@@ -928,6 +966,7 @@ static Suite *visibility_suite(void)
     tcase_add_test(touching, test_visibility_plates_in_one_plane_leave_each_other_alone);
     tcase_add_test(touching, test_visibility_nested_bodies_show_the_outer_one);
     tcase_add_test(touching, test_visibility_slivers_add_up_to_the_floor);
+    tcase_add_test(touching, test_visibility_ring_around_a_polygon_of_many_sides_hides_nothing);
     tcase_add_test(touching, test_visibility_roof_of_strips_leaves_nothing);
     tcase_add_test(touching, test_visibility_edge_of_very_many_facets_leaves_what_one_leaves);
     tcase_add_test(touching, test_visibility_corner_through_the_floor_hides_its_section);

@@ -8,8 +8,8 @@
 /* Magnitudes of the Sun: Willmer 2018, ApJS 236, 47, tables 3 and 4, rounded to 0.01 as there;
  * pivot wavelengths from the same tables. Extinction: LSST site (Cerro Pachon), as documented by
  * the lightcurvelynx project. Relative widths of U to I: Bessell 1979, PASP 91, 589; of SDSS: the
- * integral of the response over ln(wavelength) from Doi et al. 2010, AJ 139, 1628, table 4, with
- * air of airmass 1.3. */
+ * integral over ln(wavelength) of the response from Doi et al. 2010, AJ 139, 1628, table 4, with
+ * air of airmass 1.3, over the response at its peak. */
 static const band_info BANDS[] = {
     {"U", "Johnson U", 0.3611, -25.97, -25.25, NAN, SYSTEM_VEGA, 0.15},
     {"B", "Johnson B", 0.4396, -26.13, -26.26, NAN, SYSTEM_VEGA, 0.22},

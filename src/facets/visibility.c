@@ -137,7 +137,7 @@ static int trim(const box2 *box, const double *ring, int size, int n, double *ou
 typedef enum outcome { PARTLY_COVERED, ALL_COVERED, NO_MEMORY } outcome;
 
 /* Takes in a cover that was written behind the list, if it covers any of the facet. in_shaft: it is
- * known not to be outside one of the facet's edges. */
+ * known not to be outside any of the facet's edges. */
 static outcome take_cover(const target *t, visibility_scratch *s, int n, bool in_shaft)
 {
     const polygon_item *outline = &s->outline.items[0];
@@ -150,14 +150,15 @@ static outcome take_cover(const target *t, visibility_scratch *s, int n, bool in
     return relation == POLYGON_COVERED ? ALL_COVERED : PARTLY_COVERED;
 }
 
-/* A ring that is wholly before the facet's plane. */
+/* A ring that is wholly before the facet's plane, and not outside any side of the shaft, which has
+ * only the first SHAFT_SIDES of the facet's edges. */
 static outcome cover_by_ring(const target *t, visibility_scratch *s, const double (*ring)[3], int n)
 {
     point2 *room = polygon_list_room(&s->covers, n);
     if (!room) return NO_MEMORY;
     for (int k = 0; k < n; k++)
         room[k] = in_plane(t, ring[k][0], ring[k][1]);
-    return take_cover(t, s, n, true);
+    return take_cover(t, s, n, t->facet->n <= SHAFT_SIDES);
 }
 
 /* The part of a polygon before the facet's plane. */

@@ -2,6 +2,7 @@
  * view's direction into the plane, and the facet is divided along the outlines that this gives. */
 #include "facets/visibility_pieces.h"
 
+#include "base/grow.h"
 #include "base/vec.h"
 #include "facets/polygon.h"
 #include "facets/visibility_view.h"
@@ -342,17 +343,6 @@ static bool take_away(cutter *c, polygon_list *from, double near_m, polygon_list
 
 /* --- results --- */
 
-static bool grow(void **array, int *capacity, int needed, size_t size)
-{
-    if (needed <= *capacity) return true;
-    const int more = needed < 64 ? 128 : 2 * needed;
-    void *bigger = realloc(*array, (size_t)more * size);
-    if (!bigger) return false;
-    *array = bigger;
-    *capacity = more;
-    return true;
-}
-
 static void to_body(const cutter *c, const sheet *s, point2 p, double out[3])
 {
     const visibility_pose *pose = &c->poses[s->component];
@@ -369,9 +359,9 @@ static bool add_pieces(cutter *c, const sheet *s, const polygon_list *list, visi
     for (int k = 0; k < list->n; k++) {
         const polygon_item *item = &list->items[k];
         const point2 *points = list->points + item->first;
-        if (!grow((void **)&out->items, &out->capacity, out->n + 1, sizeof *out->items) ||
-            !grow((void **)&out->points, &out->point_capacity, out->n_points + item->n,
-                  sizeof *out->points))
+        if (!grow_room(&out->items, &out->capacity, out->n + 1, sizeof *out->items) ||
+            !grow_room(&out->points, &out->point_capacity, out->n_points + item->n,
+                       sizeof *out->points))
             return false;
         out->items[out->n++] = (visibility_piece){.facet = s->facet,
                                                   .light = light,
@@ -422,8 +412,7 @@ static void describe_edge(const cutter *c, const sheet *s, int neighbour, visibi
     const double cosine = c->views[0].cosine[neighbour];
     out->turn_rad = angle3(f->normal, other->normal);
     if (s->from_behind ? cosine >= -BRDF_EDGE : cosine <= BRDF_EDGE) return;
-    const bool one_surface =
-        facet_is_curved(&c->m->polygons, f) && f->surface == other->surface;
+    const bool one_surface = facet_is_curved(&c->m->polygons, f) && f->surface == other->surface;
     out->kind = one_surface || out->turn_rad < FLAT_RAD ? VISIBILITY_SMOOTH : VISIBILITY_CREASE;
 }
 
@@ -431,7 +420,7 @@ static void describe_edge(const cutter *c, const sheet *s, int neighbour, visibi
 static bool add_edge(cutter *c, const sheet *s, point2 p, point2 q, visibility_edge edge)
 {
     int n = 0;
-    if (!grow((void **)&c->hidden, &c->hidden_capacity, c->covers.n + 1, sizeof *c->hidden))
+    if (!grow_room(&c->hidden, &c->hidden_capacity, c->covers.n + 1, sizeof *c->hidden))
         return false;
     for (int k = 0; k < c->covers.n; k++)
         n += part_inside(&c->covers, k, p, q, c->hidden[n]);
@@ -442,8 +431,7 @@ static bool add_edge(cutter *c, const sheet *s, point2 p, point2 q, visibility_e
         const double to = c->hidden[k][0];
         if (to > from) {
             visibility_pieces *out = c->out;
-            if (!grow((void **)&out->edges, &out->edge_capacity, out->n_edges + 1,
-                      sizeof *out->edges))
+            if (!grow_room(&out->edges, &out->edge_capacity, out->n_edges + 1, sizeof *out->edges))
                 return false;
             const double dx = q.x - p.x, dy = q.y - p.y;
             to_body(c, s, (point2){p.x + from * dx, p.y + from * dy}, edge.from_m);

@@ -1,6 +1,7 @@
 /* What bodies that go through facets hide of them for good. */
 #include "facets/visibility_planner.h"
 
+#include "base/grow.h"
 #include "base/vec.h"
 #include "facets/polygon.h"
 
@@ -18,21 +19,9 @@ typedef struct section_list {
 
 static bool make_room(section_list *list, int n_points)
 {
-    if (list->n == list->capacity) {
-        const int capacity = 2 * list->capacity + 64;
-        section *items = realloc(list->items, (size_t)capacity * sizeof *items);
-        if (!items) return false;
-        list->items = items;
-        list->capacity = capacity;
-    }
-    if (list->n_points + n_points > list->point_capacity) {
-        const int capacity = 2 * list->point_capacity + n_points + 64;
-        double(*points)[3] = realloc(list->points, (size_t)capacity * sizeof *points);
-        if (!points) return false;
-        list->points = points;
-        list->point_capacity = capacity;
-    }
-    return true;
+    return grow_room(&list->items, &list->capacity, list->n + 1L, sizeof *list->items) &&
+           grow_room(&list->points, &list->point_capacity, (long)list->n_points + n_points,
+                     sizeof *list->points);
 }
 
 /* A facet's plane, with axes in it from its first corner. */

@@ -1,6 +1,7 @@
 #include "facets/visibility_sectors.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/vec.h"
 
 #include <math.h>
@@ -158,13 +159,7 @@ static bool may_cover(const visibility *plan, const view *v, const shaft *s, con
 
 static bool add_item(sectors *s, int n, int item)
 {
-    if (n == s->item_capacity) {
-        const int wanted = 2 * n + 1024;
-        int *grown = realloc(s->items, (size_t)wanted * sizeof *grown);
-        if (!grown) return false;
-        s->items = grown;
-        s->item_capacity = wanted;
-    }
+    if (!grow_room(&s->items, &s->item_capacity, n + 1L, sizeof *s->items)) return false;
     s->items[n] = item;
     return true;
 }
