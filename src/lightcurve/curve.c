@@ -206,29 +206,25 @@ static glint_status compute_tile(glint_curve *c, tile_worker *w, int64_t first, 
     return exposure_average(s, c->grid, w, &c->exposures[w - c->workers], n, &rows, error);
 }
 
-/* All tiles of the block, over the threads; tiles are the same for any number of them. The error of
- * the earliest tile wins. */
+/* The rows of a block: so many from number `first` of the run on. */
+typedef struct block_task {
+    glint_curve *curve;
+    int64_t first, n;
+} block_task;
+
+static glint_status compute_block_tile(void *context, int thread, int64_t tile, glint_error *error)
+{
+    const block_task *b = context;
+    const int64_t at = tile * TILE;
+    const int rows = b->n - at < TILE ? (int)(b->n - at) : TILE;
+    return compute_tile(b->curve, &b->curve->workers[thread], b->first + at, rows, at, error);
+}
+
+/* All tiles of the block, over the threads; tiles are the same for any number of them. */
 static glint_status compute_block(glint_curve *c, int64_t first, int64_t n, glint_error *error)
 {
-    const int n_tiles = (int)((n + TILE - 1) / TILE);
-    int failed_tile = n_tiles;
-    glint_status failed = GLINT_OK;
-#pragma omp parallel for schedule(dynamic) num_threads(c->n_threads) if (n_tiles > 1)
-    for (int tile = 0; tile < n_tiles; tile++) {
-        glint_error own = {0};
-        const int64_t at = (int64_t)tile * TILE;
-        const int rows = n - at < TILE ? (int)(n - at) : TILE;
-        tile_worker *w = &c->workers[omp_get_thread_num()];
-        const glint_status status = compute_tile(c, w, first + at, rows, at, &own);
-        if (!status) continue;
-#pragma omp critical(glint_first_error)
-        if (tile < failed_tile) {
-            failed_tile = tile;
-            failed = status;
-            if (error) *error = own;
-        }
-    }
-    return failed;
+    block_task block = {c, first, n};
+    return tiles_do(compute_block_tile, &block, (n + TILE - 1) / TILE, c->n_threads, error);
 }
 
 /* All workers look through the eyes of the observer whose rows come next. */

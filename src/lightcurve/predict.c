@@ -72,9 +72,10 @@ static void end(prediction *p)
     visibility_free(p->plan);
 }
 
-static glint_status predict_tile(const prediction *p, predictor *own, size_t tile,
-                                 glint_error *error)
+static glint_status predict_tile(void *context, int thread, int64_t tile, glint_error *error)
 {
+    const prediction *p = context;
+    predictor *own = &p->threads[thread];
     const size_t first = p->first[tile];
     const int n = (int)(p->first[tile + 1] - first);
     double magnitude[TILE];
@@ -86,26 +87,6 @@ static glint_status predict_tile(const prediction *p, predictor *own, size_t til
     for (int k = 0; k < n && !status; k++)
         p->take(p->context, first + (size_t)k, &meter->photometry.rows[k]);
     return status;
-}
-
-/* All tiles; the error of the earliest wins. */
-static glint_status predict_tiles(const prediction *p, glint_error *error)
-{
-    size_t failed_tile = p->n_tiles;
-    glint_status failed = GLINT_OK;
-#pragma omp parallel for schedule(dynamic) num_threads(p->n_threads) if (p->n_threads > 1)
-    for (size_t tile = 0; tile < p->n_tiles; tile++) {
-        glint_error own = {0};
-        const glint_status status = predict_tile(p, &p->threads[omp_get_thread_num()], tile, &own);
-        if (!status) continue;
-#pragma omp critical(glint_first_error)
-        if (tile < failed_tile) {
-            failed_tile = tile;
-            failed = status;
-            if (error) *error = own;
-        }
-    }
-    return failed;
 }
 
 glint_status predict_rows(const glint_scenario *s, const scenario_observer *who, const double *t_s,
@@ -128,7 +109,7 @@ glint_status predict_rows(const glint_scenario *s, const scenario_observer *who,
         status = tile_fit_threads(s->satellite.model.n_facets, s->earth.wanted, p.n_threads,
                                   &p.n_threads, error);
     if (!status) status = make_threads(&p, who, error);
-    if (!status) status = predict_tiles(&p, error);
+    if (!status) status = tiles_do(predict_tile, &p, (int64_t)p.n_tiles, p.n_threads, error);
     end(&p);
     return status;
 }

@@ -3,6 +3,7 @@
 #include "lightcurve/shadows.h"
 
 #include <math.h>
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -113,4 +114,24 @@ glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const phot
     photometry_fill(s, &w->tile, w->tile.any_bright ? w->x : NULL, has_earth ? w->earth.x : NULL,
                     rows);
     return GLINT_OK;
+}
+
+glint_status tiles_do(tile_task *task, void *context, int64_t n_tiles, int n_threads,
+                      glint_error *error)
+{
+    int64_t failed_tile = n_tiles;
+    glint_status failed = GLINT_OK;
+#pragma omp parallel for schedule(dynamic) num_threads(n_threads) if (n_tiles > 1 && n_threads > 1)
+    for (int64_t tile = 0; tile < n_tiles; tile++) {
+        glint_error own = {0};
+        const glint_status status = task(context, omp_get_thread_num(), tile, &own);
+        if (!status) continue;
+#pragma omp critical(glint_first_error)
+        if (tile < failed_tile) {
+            failed_tile = tile;
+            failed = status;
+            if (error) *error = own;
+        }
+    }
+    return failed;
 }

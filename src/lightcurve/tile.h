@@ -41,4 +41,12 @@ void tile_worker_free(tile_worker *w);
 glint_status tile_worker_sum(const glint_scenario *s, tile_worker *w, const photometry_rows *rows,
                              glint_error *error);
 
+/* Does tile number `tile` on a thread, 0 to n_threads - 1. */
+typedef glint_status tile_task(void *context, int thread, int64_t tile, glint_error *error);
+
+/* Does tiles 0 to n_tiles - 1, in any order, over n_threads threads: what becomes of a tile must
+ * not depend on the others nor on the thread. The error of the earliest tile that fails is told. */
+glint_status tiles_do(tile_task *task, void *context, int64_t n_tiles, int n_threads,
+                      glint_error *error);
+
 #endif
