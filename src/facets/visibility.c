@@ -355,8 +355,9 @@ static void pass_over_fans(const visibility *plan, const target *t, visibility_s
     }
     s->passed_over[t->facet->own] = s->n_searches;
     for (int c = t->facet->first; c < t->facet->first + t->facet->n; c++) {
-        const int first = plan->first_blade[plan->rings[c]];
-        const int end = plan->first_blade[plan->rings[c] + 1];
+        const int fan = plan->fan_at[c];
+        if (fan < 0) continue;
+        const int first = plan->first_blade[fan], end = plan->first_blade[fan + 1];
         bool open = true;
         for (int k = first; k < end; k++)
             open &= t->view->cosine[plan->blades[k].facet] > BRDF_EDGE;

@@ -43,40 +43,64 @@ static int next_facet(const solids *s, const int *edges, int n, int facet_index,
 {
     for (int k = 0; k < n; k++) {
         const solid_edge *e = &s->edges[edges[k]];
-        if (edges[k] == *edge || (e->left != facet_index && e->right != facet_index)) continue;
+        if (edges[k] < 0 || edges[k] == *edge || (e->left != facet_index && e->right != facet_index)) continue;
         *edge = edges[k];
         return e->left == facet_index ? e->right : e->left;
     }
     return -1;
 }
 
-/* Walks around a vertex of n edges; true when all its facets follow each other. They are written to
- * `out`. */
-static bool walk_around(const solids *s, const int *edges, int n, int *out)
+/* Walks around a vertex of n edges from one of them; returns how many facets follow each other until
+ * the first comes again, 0 where it does not. They are written to `out`; edges that are passed are
+ * -1 afterwards. */
+static int walk_around(const solids *s, int *edges, int n, int from, int *out)
 {
-    int edge = edges[0], at = s->edges[edge].left, count = 0;
+    int edge = edges[from], at = s->edges[edge].left, count = 0;
     const int start = at;
     do {
         out[count++] = at;
         at = next_facet(s, edges, n, at, &edge);
     } while (at >= 0 && at != start && count < n);
-    return at == start && count == n;
+    for (int k = 0; k < n; k++)
+        for (int j = 0; j < count && edges[k] >= 0; j++)
+            if (s->edges[edges[k]].left == out[j] || s->edges[edges[k]].right == out[j])
+                edges[k] = -1;
+    return at == start ? count : 0;
 }
 
-glint_status fans_find(const solids *s, fans *out, glint_error *error)
+/* Appends the fan of n facets around a vertex that stands behind the others. */
+static void add_fan(const model *m, const solids *s, int vertex, int n, fans *out)
+{
+    const int first = out->first[out->n];
+    for (int k = first; k < first + n; k++) {
+        const facet *f = &m->polygons.items[out->facets[k]];
+        for (int c = f->first_vertex; c < f->first_vertex + f->n_vertices; c++)
+            if (s->corners[c] == vertex) out->at_corner[c] = out->n;
+    }
+    out->first[++out->n] = first + n;
+}
+
+glint_status fans_find(const model *m, const solids *s, fans *out, glint_error *error)
 {
     spokes around = {0};
+    const size_t n_ends = 2 * (size_t)s->n_edges, n_corners = (size_t)m->polygons.n_vertices;
     *out = (fans){0};
-    out->first = malloc(((size_t)s->n_vertices + 1) * sizeof *out->first);
-    out->facets = malloc((2 * (size_t)s->n_edges + 1) * sizeof *out->facets);
-    const bool ok = out->first && out->facets && find_spokes(s, &around);
+    out->first = malloc((n_ends + 1) * sizeof *out->first);
+    out->facets = malloc((n_ends + 1) * sizeof *out->facets);
+    out->at_corner = malloc(n_corners * sizeof *out->at_corner);
+    const bool ok = out->first && out->facets && out->at_corner && find_spokes(s, &around);
+    for (size_t c = 0; ok && c < n_corners; c++)
+        out->at_corner[c] = -1;
+    if (ok) out->first[0] = 0;
     for (int v = 0; ok && v < s->n_vertices; v++) {
+        int *const edges = around.edges + around.first[v];
         const int n = around.first[v + 1] - around.first[v];
-        out->first[v] = out->n_facets;
-        if (n > 0 && walk_around(s, around.edges + around.first[v], n, out->facets + out->n_facets))
-            out->n_facets += n;
+        for (int k = 0; k < n; k++) {
+            if (edges[k] < 0) continue;
+            const int count = walk_around(s, edges, n, k, out->facets + out->first[out->n]);
+            if (count > 0) add_fan(m, s, v, count, out);
+        }
     }
-    if (ok) out->first[s->n_vertices] = out->n_facets;
     free(around.first);
     free(around.edges);
     if (!ok) fans_free(out);
@@ -88,5 +112,6 @@ void fans_free(fans *f)
     if (!f) return;
     free(f->first);
     free(f->facets);
+    free(f->at_corner);
     *f = (fans){0};
 }

@@ -9,16 +9,19 @@
 
 #include "facets/solids.h"
 
-/* The facets around each vertex where they form one closed fan; none for all other vertices, such
- * as those on a rim, and none of convex bodies, whose facets cast no shadows of their own. */
+/* The closed fans of a model. A vertex has one, or several where surfaces meet in it, as the two
+ * sides of a thin dish do; none where it is on a rim, and none of convex bodies and of sheets,
+ * whose facets cast no shadows of their own. */
 typedef struct fans {
-    int *first;  /* owned; n_vertices + 1: where a vertex's facets begin in `facets` */
-    int *facets; /* owned */
-    int n_facets;
+    int n;
+    int *first;     /* owned; n + 1: where a fan's facets begin in `facets` */
+    int *facets;    /* owned */
+    int *at_corner; /* owned; of each entry of model.polygons.vertices: the fan around that corner
+                       that its facet is part of; -1 for none */
 } fans;
 
 /* Errors: GLINT_INTERNAL (memory). */
-glint_status fans_find(const solids *s, fans *out, glint_error *error);
+glint_status fans_find(const model *m, const solids *s, fans *out, glint_error *error);
 void fans_free(fans *f);
 
 #endif

@@ -232,20 +232,19 @@ static void apply_numbers(const planner *p, const int *number)
     }
 }
 
-static glint_status list_fans(const planner *p, const int *number, glint_error *error)
+static glint_status list_fans(const planner *p, glint_error *error)
 {
     visibility *plan = p->plan;
     fans found;
-    const glint_status status = fans_find(&p->solids, &found, error);
+    const glint_status status = fans_find(p->m, &p->solids, &found, error);
     if (status) return status;
-    plan->blades = malloc(((size_t)found.n_facets + 1) * sizeof *plan->blades);
-    for (int v = 0; plan->blades && v < plan->n_vertices; v++)
-        plan->first_blade[number[v] + 1] = found.first[v + 1] - found.first[v];
-    for (int v = 0; plan->blades && v < plan->n_vertices; v++)
-        plan->first_blade[v + 1] += plan->first_blade[v];
-    for (int v = 0; plan->blades && v < plan->n_vertices; v++)
-        for (int k = found.first[v], j = plan->first_blade[number[v]]; k < found.first[v + 1]; k++)
-            plan->blades[j++] = (fan_blade){found.facets[k], p->own[found.facets[k]]};
+    const int n_blades = found.first[found.n];
+    plan->fan_at = found.at_corner;
+    plan->first_blade = found.first;
+    found.at_corner = found.first = NULL;
+    plan->blades = malloc(((size_t)n_blades + 1) * sizeof *plan->blades);
+    for (int k = 0; plan->blades && k < n_blades; k++)
+        plan->blades[k] = (fan_blade){found.facets[k], p->own[found.facets[k]]};
     fans_free(&found);
     return plan->blades ? GLINT_OK : error_no_memory(error);
 }
@@ -254,12 +253,9 @@ static glint_status renumber(const planner *p, glint_error *error)
 {
     int *number = malloc((size_t)p->plan->n_vertices * sizeof *number);
     int *next = malloc((size_t)p->plan->n_components * sizeof *next);
-    glint_status status = number && next ? GLINT_OK : error_no_memory(error);
-    if (!status) {
-        number_vertices(p, number, next);
-        apply_numbers(p, number);
-        status = list_fans(p, number, error);
-    }
+    const glint_status status = number && next ? GLINT_OK : error_no_memory(error);
+    if (!status) number_vertices(p, number, next);
+    if (!status) apply_numbers(p, number);
     free(number);
     free(next);
     return status;
@@ -281,13 +277,12 @@ static bool allocate_plan(visibility *plan)
     plan->corners = malloc(n_corners * sizeof *plan->corners);
     plan->beyond = malloc(n_corners * sizeof *plan->beyond);
     plan->edges = malloc(n_corners * sizeof *plan->edges);
-    plan->first_blade = calloc((size_t)plan->n_vertices + 1, sizeof *plan->first_blade);
     plan->nodes = malloc(2 * n_facets * sizeof *plan->nodes);
     plan->component_root = calloc(n_components, sizeof *plan->component_root);
     plan->roots = malloc((n_components + 1) * sizeof *plan->roots);
     return plan->vertices && plan->first_vertex && plan->normals && plan->first_facet &&
            plan->is_exposed && plan->rings && plan->occluders && plan->corners && plan->beyond &&
-           plan->edges && plan->first_blade && plan->nodes && plan->component_root && plan->roots;
+           plan->edges && plan->nodes && plan->component_root && plan->roots;
 }
 
 static bool allocate(planner *p)
@@ -327,6 +322,7 @@ static glint_status make_plan(planner *p, glint_error *error)
     if (!status) status = planner_list_exposed(p, error);
     if (!status) status = planner_find_flats(p, error);
     if (!status) status = planner_find_sections(p, error);
+    if (!status) status = list_fans(p, error);
     if (!status) status = renumber(p, error);
     return status;
 }
@@ -402,6 +398,7 @@ void visibility_free(visibility *plan)
     free(plan->component_root);
     free(plan->sections);
     free(plan->section_points);
+    free(plan->fan_at);
     free(plan->first_blade);
     free(plan->blades);
     free(plan->nodes);

@@ -81,8 +81,10 @@ struct visibility {
     section *sections;      /* owned; of exposed facets */
     double (*section_points)[3]; /* owned; m, frame of the facet's component; anticlockwise as seen
                                     from where its normal points to */
-    int *first_blade;            /* owned; n_vertices + 1 */
-    fan_blade *blades;     /* owned; those of a vertex side by side; none where there is no fan */
+    int *fan_at;           /* owned; at each entry of `rings`: the fan around this corner that the
+                              facet is part of; -1 for none */
+    int *first_blade;      /* owned; of each fan, and one more */
+    fan_blade *blades;     /* owned; those of a fan side by side */
     plan_node *nodes;      /* owned */
     plan_root *roots;      /* owned */
     double size_m;         /* greatest distance from the body's origin */

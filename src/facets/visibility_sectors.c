@@ -106,12 +106,12 @@ static void mark_fans(sectors *s, const visibility *plan, const exposed_facet *f
 {
     s->marks[f->own] = LEFT_OUT;
     for (int c = f->first; c < f->first + f->n; c++) {
-        const int first = plan->first_blade[plan->rings[c]];
-        const int end = plan->first_blade[plan->rings[c] + 1];
+        const int fan = plan->fan_at[c];
+        if (fan < 0) continue;
         bool open = true;
-        for (int k = first; k < end; k++)
+        for (int k = plan->first_blade[fan]; k < plan->first_blade[fan + 1]; k++)
             open &= s->view.cosine[plan->blades[k].facet] > sine;
-        for (int k = first; k < end; k++)
+        for (int k = plan->first_blade[fan]; k < plan->first_blade[fan + 1]; k++)
             s->marks[plan->blades[k].occluder] |= open ? LEFT_OUT : IN_FAN;
     }
 }
@@ -119,10 +119,12 @@ static void mark_fans(sectors *s, const visibility *plan, const exposed_facet *f
 static void clear_marks(sectors *s, const visibility *plan, const exposed_facet *f)
 {
     s->marks[f->own] = 0;
-    for (int c = f->first; c < f->first + f->n; c++)
-        for (int k = plan->first_blade[plan->rings[c]]; k < plan->first_blade[plan->rings[c] + 1];
-             k++)
+    for (int c = f->first; c < f->first + f->n; c++) {
+        const int fan = plan->fan_at[c];
+        if (fan < 0) continue;
+        for (int k = plan->first_blade[fan]; k < plan->first_blade[fan + 1]; k++)
             s->marks[plan->blades[k].occluder] = 0;
+    }
 }
 
 /* Whether any of an occluder's corners is inside a side of a shaft that is widened by margin_m. */
