@@ -395,7 +395,7 @@ static void walk(void *data)
             for (int which = 0; which < 2 && counts; which++) {
                 shaft before;
                 shaft_make(s->plan, &s->views[which], f, 0.0, &before);
-                view_candidates(s->plan, &s->views[which], &before, 0, s->nodes, s->candidates);
+                view_candidates(s->plan, &s->views[which], &before, 0, 1, s->nodes, s->candidates);
             }
         }
     }

@@ -292,7 +292,7 @@ static bool lies_across(const visibility *plan, const target *t, const double fr
     }
     if (!beyond) return false;
     const double ends[2][3] = {{from[0], from[1], 0}, {to[0], to[1], 0}};
-    return !view_relate(&t->shaft, ends, 2).aside;
+    return !(view_relate(&t->shaft, ends, 2) & SHAFT_ASIDE);
 }
 
 /* Notes whether a polygon that covers part of the facet ends there. Where it does not, the facet
@@ -330,13 +330,13 @@ static outcome cover_by(const visibility *plan, const target *t, visibility_scra
         n = trim(&box, ring[0], 3, n, s->ring[0]);
         ring = (const double(*)[3])s->ring;
     }
-    const shaft_relation lies = view_relate(&t->shaft, ring, n);
-    if (lies.aside) return PARTLY_COVERED;
-    const bool whole = !lies.below && !lies.crosses_plane;
+    const unsigned lies = view_relate(&t->shaft, ring, n);
+    if (lies & SHAFT_ASIDE) return PARTLY_COVERED;
+    const bool whole = lies == 0;
     if (o->facet < 0)
         return whole ? cover_by_ring(t, s, ring, n)
-                     : cover_by_cut_body(plan, t, s, k, outline, lies.below);
-    if (lies.below) return PARTLY_COVERED;
+                     : cover_by_cut_body(plan, t, s, k, outline, lies & SHAFT_BELOW);
+    if (lies & SHAFT_BELOW) return PARTLY_COVERED;
     const int n_covers = s->covers.n;
     const outcome found = whole ? cover_by_ring(t, s, ring, n) : cover_by_part(t, s, ring, n);
     if (s->covers.n > n_covers && whole)
@@ -386,18 +386,16 @@ static int copy_list(const visibility *plan, const target *t, int *out, bool *in
 static int find_candidates(const visibility *plan, const target *t, visibility_scratch *s,
                            bool *in_fans)
 {
-    int n = 0;
+    const int own = t->facet->root;
     *in_fans = false;
-    for (int root = 0; root < plan->n_roots; root++) {
-        if (root == t->facet->root && t->lists) {
-            const int listed = copy_list(plan, t, s->candidates + n, in_fans);
-            n += listed > 0 ? listed : 0;
-            if (listed >= 0) continue;
-        }
-        n += view_candidates(plan, t->view, &t->shaft, root, s->nodes, s->candidates + n);
-        *in_fans |= root == t->facet->root;
-    }
-    return n;
+    int n = view_candidates(plan, t->view, &t->shaft, 0, own, s->nodes, s->candidates);
+    const int listed = t->lists ? copy_list(plan, t, s->candidates + n, in_fans) : -1;
+    *in_fans |= listed < 0;
+    n += listed >= 0 ? listed
+                     : view_candidates(plan, t->view, &t->shaft, own, own + 1, s->nodes,
+                                       s->candidates + n);
+    return n + view_candidates(plan, t->view, &t->shaft, own + 1, plan->n_roots, s->nodes,
+                               s->candidates + n);
 }
 
 /* Takes in everything that lies before the facet in one view. Where polygons cover part of it and

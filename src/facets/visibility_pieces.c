@@ -228,10 +228,10 @@ static bool cover_by(cutter *c, const sheet_view *s, int k)
     const occluder *o = &c->plan->occluders[k];
     const view_ring outline = view_outline(c->plan, s->view, k);
     const double(*ring)[3] = (const double(*)[3])s->view->points + outline.first;
-    shaft_relation lies = {.crosses_plane = true};
+    unsigned lies = SHAFT_CROSSES;
     if (outline.n > 0) lies = view_relate(&s->shaft, ring, outline.n);
-    const bool by_ring = o->facet >= 0 || (!lies.below && !lies.crosses_plane);
-    if (o->facet >= 0 && (lies.below || outline.n == 0)) return true;
+    const bool by_ring = o->facet >= 0 || !(lies & (SHAFT_BELOW | SHAFT_CROSSES));
+    if (o->facet >= 0 && ((lies & SHAFT_BELOW) || outline.n == 0)) return true;
     point2 *room = polygon_list_room(&c->covers, by_ring ? 2 * outline.n : o->n + o->n_edges + 1);
     if (!room) return false;
     const int n =
@@ -245,11 +245,10 @@ static bool cover_by(cutter *c, const sheet_view *s, int k)
 static bool find_covers(cutter *c, const sheet_view *s)
 {
     polygon_list_clear(&c->covers);
-    for (int root = 0; root < c->plan->n_roots; root++) {
-        const int n = view_candidates(c->plan, s->view, &s->shaft, root, c->nodes, c->candidates);
-        for (int k = 0; k < n; k++)
-            if (!cover_by(c, s, c->candidates[k])) return false;
-    }
+    const int n =
+        view_candidates(c->plan, s->view, &s->shaft, 0, c->plan->n_roots, c->nodes, c->candidates);
+    for (int k = 0; k < n; k++)
+        if (!cover_by(c, s, c->candidates[k])) return false;
     return true;
 }
 

@@ -17,10 +17,11 @@ bool view_allocate(view *v, const visibility *plan)
     v->vertices = malloc(n_vertices * sizeof *v->vertices);
     v->cosine = malloc((size_t)plan->n_facets * sizeof *v->cosine);
     v->nodes = malloc(n_nodes * sizeof *v->nodes);
+    v->roots = malloc((size_t)plan->n_roots * sizeof *v->roots);
     v->points = malloc((size_t)plan->n_corners * sizeof *v->points);
     v->rings = malloc((size_t)plan->n_occluders * sizeof *v->rings);
     v->next = malloc(n_vertices * sizeof *v->next);
-    return v->axes && v->shift_m && v->vertices && v->cosine && v->nodes && v->points && v->rings &&
+    return v->axes && v->shift_m && v->vertices && v->cosine && v->nodes && v->roots && v->points && v->rings &&
            v->next;
 }
 
@@ -31,6 +32,7 @@ void view_free(view *v)
     free(v->vertices);
     free(v->cosine);
     free(v->nodes);
+    free(v->roots);
     free(v->points);
     free(v->rings);
     free(v->next);
@@ -170,6 +172,11 @@ static void bound(const visibility *plan, view *v)
             put_box(&v->nodes[k], j, &box, node->leaf ? margin_m : 0.0);
         }
     }
+    for (int k = 0; k < plan->n_roots; k++) {
+        const box3 box = box_of_node(&v->nodes[plan->roots[k].node]);
+        v->roots[k] = (view_box){(float)box.lo_x, (float)box.hi_x, (float)box.lo_y,
+                                 (float)box.hi_y, (float)box.hi_z};
+    }
 }
 
 void view_set_wide(const visibility *plan, const visibility_pose *poses,
@@ -291,8 +298,18 @@ CLONES static int walk(const plan_node *nodes, const view_node *boxes, const flo
     return n;
 }
 
-int view_candidates(const visibility *plan, view *v, const shaft *s, int root, int *nodes, int *out)
+/* Whether a box may reach into a shaft. */
+static inline bool reaches_in(const view_box *box, const float_shaft *s)
 {
+    const float height = box->hi_z - s->lo_z, margin = s->slope * height;
+    return (box->lo_x - margin < s->hi_x) & (box->hi_x + margin > s->lo_x) &
+           (box->lo_y - margin < s->hi_y) & (box->hi_y + margin > s->lo_y) & (height > 0.0f);
+}
+
+int view_candidates(const visibility *plan, view *v, const shaft *s, int first_root, int end_root,
+                    int *nodes, int *out)
+{
+    if (first_root == end_root) return 0;
     const double margin_m = FLOAT_MARGIN * plan->size_m;
     float_shaft rough = {.lo_x = (float)(s->lo_x - margin_m),
                          .hi_x = (float)(s->hi_x + margin_m),
@@ -311,7 +328,10 @@ int view_candidates(const visibility *plan, view *v, const shaft *s, int root, i
     if (s->normal[2] < 0.0) rough.a = rough.b = rough.c = 0.0f, rough.d = 1.0f;
     if (!v->has_boxes) bound(plan, v);
     v->has_boxes = true;
-    const int n = walk(plan->nodes, v->nodes, &rough, plan->roots[root].node, nodes, out);
+    int n = 0;
+    for (int k = first_root; k < end_root; k++)
+        if (reaches_in(&v->roots[k], &rough))
+            n += walk(plan->nodes, v->nodes, &rough, plan->roots[k].node, nodes, out + n);
     for (int k = 0; k < n; k++) {
         const double *first = v->points[v->rings[out[k]].first];
         __builtin_prefetch(first);
@@ -320,7 +340,7 @@ int view_candidates(const visibility *plan, view *v, const shaft *s, int root, i
     return n;
 }
 
-CLONES shaft_relation view_relate(const shaft *s, const double (*points)[3], int n)
+CLONES unsigned view_relate(const shaft *s, const double (*points)[3], int n)
 {
     double lowest = INFINITY, highest = -INFINITY;
     for (int k = 0; k < n; k++) {
@@ -328,14 +348,14 @@ CLONES shaft_relation view_relate(const shaft *s, const double (*points)[3], int
         lowest = lower(lowest, height_m);
         highest = higher(highest, height_m);
     }
-    const bool below = highest <= s->contact_m, crosses = lowest < 0.0;
-    for (int side = 0; !below && side < s->n_fours; side++) {
+    const unsigned crosses = lowest < 0.0 ? SHAFT_CROSSES : 0;
+    if (highest <= s->contact_m) return SHAFT_BELOW | crosses;
+    for (int side = 0; side < s->n_fours; side++) {
         const double4 a = s->a[side], b = s->b[side], c = s->c[side];
         mask4 inside = {0};
         for (int k = 0; k < n; k++)
             inside |= a * points[k][0] + b * points[k][1] + c > 0.0;
-        if (!(inside[0] & inside[1] & inside[2] & inside[3]))
-            return (shaft_relation){true, below, crosses};
+        if (!(inside[0] & inside[1] & inside[2] & inside[3])) return SHAFT_ASIDE | crosses;
     }
-    return (shaft_relation){false, below, crosses};
+    return crosses;
 }

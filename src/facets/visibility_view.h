@@ -16,6 +16,10 @@ typedef struct view_node {
     float8 lo_x, hi_x, lo_y, hi_y, hi_z;
 } view_node;
 
+typedef struct view_box {
+    float lo_x, hi_x, lo_y, hi_y, hi_z;
+} view_box;
+
 /* What an occluder hides in a view: a ring of points, anticlockwise. */
 typedef struct view_ring {
     int first, n; /* in view.points; n: VIEW_NOT_TRACED, or 0 where nothing is hidden or known */
@@ -33,6 +37,7 @@ typedef struct view {
     double (*vertices)[3];  /* owned; m */
     double *cosine;         /* owned; of each facet: z of its normal */
     view_node *nodes;       /* owned */
+    view_box *roots;        /* owned; around each tree */
     double (*points)[3];    /* owned; m; those of an occluder side by side, from its `first` on */
     view_ring *rings;       /* owned; of each occluder */
     int *next;              /* owned; of each vertex: the next one on an outline; scratch */
@@ -73,17 +78,18 @@ typedef struct shaft {
 void shaft_make(const visibility *plan, const view *v, const exposed_facet *f, double slope,
                 shaft *out);
 
-/* Lists the occluders of one tree whose boxes reach into the shaft; returns how many. nodes:
- * scratch for plan.n_nodes + NODE_CHILDREN; out: room for plan.n_occluders + NODE_CHILDREN. */
-int view_candidates(const visibility *plan, view *v, const shaft *s, int root, int *nodes,
-                    int *out);
+/* Lists the occluders of the trees from one to before another whose boxes reach into the shaft;
+ * returns how many. nodes: scratch for plan.n_nodes + NODE_CHILDREN; out: room for plan.n_occluders +
+ * NODE_CHILDREN. */
+int view_candidates(const visibility *plan, view *v, const shaft *s, int first_root, int end_root,
+                    int *nodes, int *out);
 
-/* How n points lie to the shaft. */
-typedef struct shaft_relation {
-    bool aside;         /* all are outside one of the sides */
-    bool below;         /* none is above the plane */
-    bool crosses_plane; /* some are behind the plane */
-} shaft_relation;
-shaft_relation view_relate(const shaft *s, const double (*points)[3], int n);
+/* How points lie to the shaft: any of these. */
+enum {
+    SHAFT_ASIDE = 1,  /* all are outside one of the sides */
+    SHAFT_BELOW = 2,  /* none is above the plane */
+    SHAFT_CROSSES = 4 /* some are behind the plane */
+};
+unsigned view_relate(const shaft *s, const double (*points)[3], int n);
 
 #endif
