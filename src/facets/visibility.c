@@ -117,7 +117,7 @@ static inline unsigned sides_outside(const box2 *box, const double *p)
 /* Leaves out of a ring what makes no difference inside a box: of points that follow each other
  * outside the same side of it, only the first and the last matter. Points of `size` numbers, of
  * which the first two are x and y. Returns how many are left, in `out`, which may be `ring`. */
-static int trim(const box2 *box, const double *ring, int size, int n, double *out)
+static inline int trim(const box2 *box, const double *ring, int size, int n, double *out)
 {
     const unsigned first = sides_outside(box, ring);
     unsigned common = 0, own = first; /* `common` to all since the last one kept */
@@ -128,7 +128,10 @@ static int trim(const box2 *box, const double *ring, int size, int n, double *ou
         const bool matters = (common & own & next) == 0;
         common = matters ? own : common & own;
         own = next;
-        if (matters) memmove(out + (long)size * count++, p, (size_t)size * sizeof *out);
+        double *kept = out + (long)size * count; /* written without asking: a branch would be guessed wrong */
+        for (int j = 0; j < size; j++)
+            kept[j] = p[j];
+        count += matters;
     }
     return count;
 }
@@ -264,12 +267,11 @@ static outcome cover_by_hull(const visibility *plan, const target *t, visibility
  * is before the plane, and at the section along which the plane cuts it: the section and the ring
  * of that part of the outline, closed straight through the section, cover the same together. */
 static outcome cover_by_cut_body(const visibility *plan, const target *t, visibility_scratch *s,
-                                 int k, view_ring outline, bool outline_below)
+                                 int k, const double (*ring)[3], int n, bool outline_below)
 {
     const occluder *o = &plan->occluders[k];
-    const double(*ring)[3] = (const double(*)[3])t->view->points + outline.first;
     if (!outline_below) {
-        const outcome found = cover_by_part(t, s, ring, outline.n);
+        const outcome found = cover_by_part(t, s, ring, n);
         if (found != PARTLY_COVERED) return found;
     }
     if (!may_cut_anew(plan, t->facet, k)) return PARTLY_COVERED;
@@ -335,7 +337,7 @@ static outcome cover_by(const visibility *plan, const target *t, visibility_scra
     const bool whole = lies == 0;
     if (o->facet < 0)
         return whole ? cover_by_ring(t, s, ring, n)
-                     : cover_by_cut_body(plan, t, s, k, outline, lies & SHAFT_BELOW);
+                     : cover_by_cut_body(plan, t, s, k, ring, n, lies & SHAFT_BELOW);
     if (lies & SHAFT_BELOW) return PARTLY_COVERED;
     const int n_covers = s->covers.n;
     const outcome found = whole ? cover_by_ring(t, s, ring, n) : cover_by_part(t, s, ring, n);
