@@ -22,6 +22,8 @@ struct visibility_scratch {
     polygon_work work;
     point2 *points;          /* owned; of a body's part before the facet */
     double (*ring)[3];       /* owned; what matters of an outline */
+    long long *sides;        /* owned; for trimming: of each point of an outline, and the first */
+    int *kept;               /* owned; likewise: points that matter */
     double *heights_m;       /* owned; of each vertex, where they are asked for */
     int *nodes, *candidates; /* owned; for the walk through the trees; what it found */
     unsigned *passed_over;   /* owned; of each occluder: number of the last search that did so */
@@ -114,25 +116,42 @@ static inline unsigned sides_outside(const box2 *box, const double *p)
            (p[1] > box->hi_y) << 3;
 }
 
+/* The same of n points of `size` numbers each, of which the first two are x and y. */
+CLONES static void find_sides(const box2 *box, const double *ring, int size, int n, long long *out)
+{
+    const long stride = size;
+    int k = 0;
+    for (; k + 4 <= n; k += 4) {
+        const double *p = ring + stride * k;
+        const double4 x = {p[0], p[stride], p[2 * stride], p[3 * stride]};
+        const double4 y = {p[1], p[stride + 1], p[2 * stride + 1], p[3 * stride + 1]};
+        *(mask4 *)(out + k) = ((x < box->lo_x) & 1) | ((x > box->hi_x) & 2) |
+                              ((y < box->lo_y) & 4) | ((y > box->hi_y) & 8);
+    }
+    for (; k < n; k++)
+        out[k] = sides_outside(box, ring + stride * k);
+}
+
 /* Leaves out of a ring what makes no difference inside a box: of points that follow each other
  * outside the same side of it, only the first and the last matter. Points of `size` numbers, of
  * which the first two are x and y. Returns how many are left, in `out`, which may be `ring`. */
-static inline int trim(const box2 *box, const double *ring, int size, int n, double *out)
+static int trim(visibility_scratch *s, const box2 *box, const double *ring, int size, int n,
+                double *out)
 {
-    const unsigned first = sides_outside(box, ring);
-    unsigned common = 0, own = first; /* `common` to all since the last one kept */
+    long long *sides = s->sides, common = 0; /* `common` to all since the last one kept */
     int count = 0;
+    find_sides(box, ring, size, n, sides);
+    sides[n] = sides[0];
     for (int k = 0; k < n; k++) {
-        const double *p = ring + (long)size * k;
-        const unsigned next = k + 1 < n ? sides_outside(box, p + size) : first;
-        const bool matters = (common & own & next) == 0;
-        common = matters ? own : common & own;
-        own = next;
-        double *kept = out + (long)size * count; /* written without asking: a branch would be guessed wrong */
-        for (int j = 0; j < size; j++)
-            kept[j] = p[j];
+        const long long before = common & sides[k];
+        const bool matters = (before & sides[k + 1]) == 0;
+        common = matters ? sides[k] : before;
+        s->kept[count] = k; /* a branch would be guessed wrong */
         count += matters;
     }
+    for (int k = 0; k < count; k++)
+        for (int j = 0; j < size; j++)
+            out[(long)size * k + j] = ring[(long)size * s->kept[k] + j];
     return count;
 }
 
@@ -145,7 +164,7 @@ static outcome take_cover(const target *t, visibility_scratch *s, int n, bool in
 {
     const polygon_item *outline = &s->outline.items[0];
     double *points = &s->covers.points[s->covers.n_points].x;
-    if (n > WORTH_TRIMMING) n = trim(&outline->box, points, 2, n, points);
+    if (n > WORTH_TRIMMING) n = trim(s, &outline->box, points, 2, n, points);
     if (!polygon_list_take(&s->covers, n, t->near_m)) return PARTLY_COVERED;
     const polygon_relation relation = (in_shaft ? polygon_relate_to_edges : polygon_relate)(
         &s->outline, 0, &s->covers, s->covers.n - 1);
@@ -329,7 +348,7 @@ static outcome cover_by(const visibility *plan, const target *t, visibility_scra
     if (n > WORTH_TRIMMING) {
         const shaft *before = &t->shaft;
         const box2 box = {before->lo_x, before->lo_y, before->hi_x, before->hi_y};
-        n = trim(&box, ring[0], 3, n, s->ring[0]);
+        n = trim(s, &box, ring[0], 3, n, s->ring[0]);
         ring = (const double(*)[3])s->ring;
     }
     const unsigned lies = view_relate(&t->shaft, ring, n);
@@ -555,6 +574,8 @@ glint_status visibility_scratch_make(const visibility *plan, visibility_scratch 
     s->poses = malloc((size_t)plan->n_components * sizeof *s->poses);
     s->heights_m = malloc((size_t)plan->n_vertices * sizeof *s->heights_m);
     s->ring = malloc(n * sizeof *s->ring);
+    s->sides = malloc((n + n_hull + 2) * sizeof *s->sides); /* of parts of rings, and of hulls */
+    s->kept = malloc((n + n_hull + 1) * sizeof *s->kept);
     s->points = malloc(n_hull * sizeof *s->points);
     /* the walk writes a whole node's children and then keeps some */
     s->nodes = malloc(((size_t)plan->n_nodes + NODE_CHILDREN) * sizeof *s->nodes);
@@ -567,7 +588,7 @@ glint_status visibility_scratch_make(const visibility *plan, visibility_scratch 
     const bool outline = polygon_list_room(&s->outline, plan->most_corners);
     s->plan = plan;
     if (!views || !all_sectors || !s->lists[0] || !s->lists[1] || !outline || !s->poses ||
-        !s->ring || !s->heights_m || !s->points || !s->nodes || !s->candidates || !s->passed_over) {
+        !s->ring || !s->sides || !s->kept || !s->heights_m || !s->points || !s->nodes || !s->candidates || !s->passed_over) {
         visibility_scratch_free(s);
         return error_no_memory(error);
     }
@@ -588,6 +609,8 @@ void visibility_scratch_free(visibility_scratch *s)
     polygon_list_free(&s->covers);
     polygon_work_free(&s->work);
     free(s->ring);
+    free(s->sides);
+    free(s->kept);
     free(s->heights_m);
     free(s->points);
     free(s->nodes);

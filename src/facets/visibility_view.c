@@ -231,33 +231,45 @@ view_ring view_outline(const visibility *plan, view *v, int k)
 
 /* --- the shaft before a facet --- */
 
+/* The sides of a shaft, and the box around the facet. */
+CLONES static void make_sides(const double (*vertices)[3], const int *ring, int n, double near_m,
+                              shaft *s)
+{
+    double4 least = all4(INFINITY);
+    double lo_z = INFINITY;
+    for (int first = 0; first < n; first += 4) {
+        const double *p[5]; /* ends of four edges; after the last, the first one again */
+        for (int j = 0; j < 5; j++)
+            p[j] = vertices[ring[first + j < n ? first + j : 0]];
+        for (int j = 0; j < 4; j++) {
+            least = least4(least, (double4){p[j][0], p[j][1], -p[j][0], -p[j][1]});
+            lo_z = lower(lo_z, p[j][2]);
+        }
+        if (first >= SHAFT_SIDES) continue;
+        const double4 x = {p[0][0], p[1][0], p[2][0], p[3][0]};
+        const double4 y = {p[0][1], p[1][1], p[2][1], p[3][1]};
+        const double4 dx = (double4){p[1][0], p[2][0], p[3][0], p[4][0]} - x;
+        const double4 dy = (double4){p[1][1], p[2][1], p[3][1], p[4][1]} - y;
+        const mask4 own = (mask4){0, 1, 2, 3} < (long long)(n - first);
+        const double4 zero = {0};
+        s->a[first / 4] = pick4(own, -dy, zero);
+        s->b[first / 4] = pick4(own, dx, zero);
+        s->c[first / 4] =
+            pick4(own, dy * x - dx * y - near_m * (size4(dx) + size4(dy)), all4(1.0));
+    }
+    s->lo_x = least[0], s->hi_x = -least[2], s->lo_y = least[1], s->hi_y = -least[3];
+    s->lo_z = lo_z;
+}
+
 void shaft_make(const visibility *plan, const view *v, const exposed_facet *f, double slope,
                 shaft *s)
 {
-    const int *ring = plan->rings + f->first;
-    double a[SHAFT_SIDES] = {0}, b[SHAFT_SIDES] = {0}, c[SHAFT_SIDES] = {1, 1, 1, 1, 1, 1, 1, 1};
     mat_vec(v->axes[f->component], f->normal, s->normal);
     s->offset_m = f->offset_m + dot3(s->normal, v->shift_m[f->component]);
     s->contact_m = f->contact_m;
     s->slope = slope;
-    s->lo_x = s->lo_y = s->lo_z = INFINITY, s->hi_x = s->hi_y = -INFINITY;
-    for (int k = 0; k < f->n; k++) {
-        const double *p = v->vertices[ring[k]], *q = v->vertices[ring[k + 1 < f->n ? k + 1 : 0]];
-        const double x = p[0], y = p[1], dx = q[0] - x, dy = q[1] - y;
-        s->lo_x = lower(s->lo_x, x), s->hi_x = higher(s->hi_x, x);
-        s->lo_y = lower(s->lo_y, y), s->hi_y = higher(s->hi_y, y);
-        s->lo_z = lower(s->lo_z, p[2]);
-        if (k >= SHAFT_SIDES) continue;
-        a[k] = -dy, b[k] = dx;
-        c[k] = dy * x - dx * y - plan->near_m * (fabs(dx) + fabs(dy));
-    }
     s->n_fours = f->n > 4 ? 2 : 1;
-    for (int k = 0; k < s->n_fours; k++) {
-        const int j = 4 * k;
-        s->a[k] = (double4){a[j], a[j + 1], a[j + 2], a[j + 3]};
-        s->b[k] = (double4){b[j], b[j + 1], b[j + 2], b[j + 3]};
-        s->c[k] = (double4){c[j], c[j + 1], c[j + 2], c[j + 3]};
-    }
+    make_sides((const double(*)[3])v->vertices, plan->rings + f->first, f->n, plan->near_m, s);
 }
 
 /* The shaft in floats; `high_x`, `high_y`: which ends of a box rise highest over the facet's plane.
