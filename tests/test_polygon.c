@@ -210,6 +210,7 @@ START_TEST(test_polygon_uncovered_area_agrees_with_slabs)
     assert_near(worst_of_scenes(4000, 4, 1.5, 0), 0.0, 1e-13);
     assert_near(worst_of_scenes(1000, 8, 1.2, 0), 0.0, 1e-13);
     assert_near(worst_of_scenes(300, MOST_COVERS, 0.8, 0), 0.0, 3e-13);
+    assert_near(worst_of_scenes(300, MOST_COVERS, 0.4, 0), 0.0, 3e-13);
 }
 END_TEST
 
@@ -218,6 +219,37 @@ START_TEST(test_polygon_uncovered_area_agrees_with_slabs_where_edges_coincide)
     assert_near(worst_of_scenes(4000, 4, 1.5, 0.25), 0.0, 1e-13);
     assert_near(worst_of_scenes(1000, 8, 1.2, 0.25), 0.0, 1e-13);
     assert_near(worst_of_scenes(300, MOST_COVERS, 0.8, 0.25), 0.0, 3e-13);
+    assert_near(worst_of_scenes(300, MOST_COVERS, 0.4, 0.125), 0.0, 3e-13);
+}
+END_TEST
+
+/* Two lattices of tiles that touch, of 5 m x 4 m and of 4 m x 5 m, in any position: they share
+ * 2 m x 2 m, so that 20 + 20 - 4 m2 of 100 are covered. Strips from edge to edge between y = 2 m and
+ * 4 m, which touch too, take what the lattices leave there: 10 - 5 m2 of the lower half and 10 - 7
+ * of the upper one. */
+START_TEST(test_polygon_uncovered_area_of_tiles_that_touch)
+{
+    enum { TILES = 20, STRIPS = 9 };
+    static ring rings[1 + 2 * TILES + STRIPS];
+    for (int turn_deg = 0; turn_deg < 360; turn_deg += 7) {
+        const double c = cos(turn_deg * DEG), d = sin(turn_deg * DEG);
+        int n = 0;
+        rings[n++] = rectangle(0, 0, 10, 10);
+        for (int k = 0; k < TILES; k++) {
+            const double x = 1 + k % 5, y = 1 + k / 5, u = 4 + k % 4, v = 3 + k / 4;
+            rings[n++] = rectangle(x, y, x + 1, y + 1);
+            rings[n++] = rectangle(u, v, u + 1, v + 1);
+        }
+        for (int k = 0; k < STRIPS; k++)
+            rings[n++] = rectangle(-1, 2 + 2.0 * k / STRIPS, 11, 2 + 2.0 * (k + 1) / STRIPS);
+        for (int k = 0; k < n; k++)
+            for (int j = 0; j < rings[k].n; j++) {
+                const point2 p = rings[k].points[j];
+                rings[k].points[j] = (point2){c * p.x - d * p.y, d * p.x + c * p.y};
+            }
+        assert_near(area_left(rings, 1 + 2 * TILES), 100.0 - 36.0, 1e-12);
+        assert_near(area_left(rings, n), 100.0 - 36.0 - 5.0 - 3.0, 1e-12);
+    }
 }
 END_TEST
 
@@ -255,6 +287,7 @@ int main(void)
     tcase_add_test(tc, test_polygon_uncovered_area_is_a_number_where_edges_are_all_but_upright);
     tcase_add_test(tc, test_polygon_uncovered_area_agrees_with_slabs);
     tcase_add_test(tc, test_polygon_uncovered_area_agrees_with_slabs_where_edges_coincide);
+    tcase_add_test(tc, test_polygon_uncovered_area_of_tiles_that_touch);
     tcase_add_test(tc, test_polygon_uncovered_area_does_not_depend_on_order_or_axes);
     suite_add_tcase(suite, tc);
     return run_suite(suite);

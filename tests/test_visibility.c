@@ -796,6 +796,62 @@ START_TEST(test_visibility_corner_through_the_floor_hides_its_section)
 }
 END_TEST
 
+/* A prism of 64 sides and 2.5 m around the z axis, from 1 m below the ground on. */
+static void add_pillar(facet_list *list, int component)
+{
+    primitive_spec spec = shape("prism");
+    SET(&spec, "sides", 64);
+    SET(&spec, "radius_m", 1);
+    SET(&spec, "length_m", 2.5);
+    SET(&spec, "centre_m", 0, 0, 0.25);
+    shape_material(&spec, "material", 0);
+    shape_add(&spec, component, list);
+}
+
+/* Half of its breadth across a horizontal direction. */
+static double half_breadth(const double across[3])
+{
+    facet_list pillar = {0};
+    double most = 0.0;
+    add_pillar(&pillar, 0);
+    for (int v = 0; v < pillar.n_vertices; v++)
+        most = fmax(most, dot3(pillar.vertices[v], across));
+    facet_list_free(&pillar);
+    return most;
+}
+
+/* A prism of 64 sides that stands through the ground, and its shadow, a band as broad as itself, on
+ * a tile of the ground beside it: of a breadth of 1 m, 0.3 m are in the band. The prism's outline
+ * has many corners behind the tile's plane and many far from the tile. The same where the prism may
+ * turn. */
+START_TEST(test_visibility_prism_through_the_ground_casts_a_band)
+{
+    for (int azimuth_deg = 3; azimuth_deg < 720; azimuth_deg += 24) {
+        const bool moves = azimuth_deg > 360;
+        scene *s = scene_new();
+        double sun[3], along[3] = {0, 0, 0}, across[3], tile[4][3];
+        direction_deg(75, azimuth_deg, sun);
+        along[0] = -sun[0], along[1] = -sun[1];
+        unit3(along, along);
+        cross3(z_axis, along, across);
+        const double edge_m = half_breadth(across);
+        for (int k = 0; k < 4;
+             k++) { /* the shadow ends 5.6 m away, and the prism's top half is 1.5 m */
+            scale3(along, k == 1 || k == 2 ? 3.5 : 2.5, tile[k]);
+            add_scaled3(tile[k], edge_m + (k >= 2 ? 0.7 : -0.3), across, tile[k]);
+        }
+        add_facet(s, (const double(*)[3])tile, 4);
+        add_pillar(&s->facets, 1);
+        s->components[1].moves = moves;
+        copy3(z_axis, s->components[1].axis);
+        scene_plan(s, 2);
+        assert_near(fraction_for(s, 0, sun, z_axis), 0.7, 1e-13);
+        assert_near(fraction_for(s, 0, z_axis, sun), 0.7, 1e-13);
+        scene_free(s);
+    }
+}
+END_TEST
+
 /* Directions in the planes of facets, along edges and through corners, of bodies that touch: the
  * fractions stay between 0 and 1 (look asserts it), and a step of 1e-12 off changes what shines by
  * no more than the step times the outlines. */
@@ -970,6 +1026,7 @@ static Suite *visibility_suite(void)
     tcase_add_test(touching, test_visibility_roof_of_strips_leaves_nothing);
     tcase_add_test(touching, test_visibility_edge_of_very_many_facets_leaves_what_one_leaves);
     tcase_add_test(touching, test_visibility_corner_through_the_floor_hides_its_section);
+    tcase_add_test(touching, test_visibility_prism_through_the_ground_casts_a_band);
     tcase_add_test(touching, test_visibility_along_edges_is_continuous);
     tcase_add_test(touching, test_visibility_random_bodies_are_symmetric_and_continuous);
     tcase_add_test(touching, test_visibility_flap_turns_through_contact);

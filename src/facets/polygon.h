@@ -19,6 +19,11 @@ typedef struct box2 {
     double lo_x, lo_y, hi_x, hi_y;
 } box2;
 
+static inline bool boxes_overlap(const box2 *a, const box2 *b)
+{
+    return (a->lo_x < b->hi_x) & (b->lo_x < a->hi_x) & (a->lo_y < b->hi_y) & (b->lo_y < a->hi_y);
+}
+
 /* Area by the shoelace formula; negative when the ring runs clockwise. n: 0 or more. */
 double polygon_area(const point2 *points, int n);
 
@@ -95,19 +100,20 @@ typedef struct polygon_work {
     polygon_list parts; /* a stack */
     point2 *spare;
     struct polygon_task *tasks;
-    int *lists;
+    int *lists, *ends;
     struct four_edges *edges;
-    int spare_capacity, n_tasks, task_capacity, n_lists, list_capacity, edge_capacity;
+    int spare_capacity, n_tasks, task_capacity, n_lists, list_capacity, end_capacity, edge_capacity;
 } polygon_work;
 
 void polygon_work_free(polygon_work *work);
 
 /* The area of polygon `subject` of a list that no polygon of `covers` covers: exact but for
  * rounding. Fastest when every one of these crosses it. Few covers: the areas that they share with
- * it, less what they share among each other. More: the polygon is divided, along the edges of a
- * cover or, where there are many, in halves, until each part meets few. Time: about linear in the
- * number of covers where few cross at one place, at worst their number to the third power; memory:
- * the parts of one branch at a time. Errors: GLINT_INTERNAL (memory). */
+ * it, less what they share among each other. Many, of which few share area, as the facets of a dish
+ * do: the same, one cover after the other. Else the polygon is divided, along the edges of a cover
+ * or, where there are many, in halves, until each part meets few. Time: about linear in the number
+ * of covers where few cross at one place, at worst their number to the third power; memory: the
+ * parts of one branch at a time. Errors: GLINT_INTERNAL (memory). */
 glint_status polygon_uncovered_area(const polygon_list *list, int subject,
                                     const polygon_list *covers, double near, polygon_work *work,
                                     double *area, glint_error *error);

@@ -412,9 +412,9 @@ static int find_candidates(const visibility *plan, const target *t, visibility_s
     int n = view_candidates(plan, t->view, &t->shaft, 0, own, s->nodes, s->candidates);
     const int listed = t->lists ? copy_list(plan, t, s->candidates + n, in_fans) : -1;
     *in_fans |= listed < 0;
-    n += listed >= 0 ? listed
-                     : view_candidates(plan, t->view, &t->shaft, own, own + 1, s->nodes,
-                                       s->candidates + n);
+    n += listed >= 0
+             ? listed
+             : view_candidates(plan, t->view, &t->shaft, own, own + 1, s->nodes, s->candidates + n);
     return n + view_candidates(plan, t->view, &t->shaft, own + 1, plan->n_roots, s->nodes,
                                s->candidates + n);
 }
@@ -588,7 +588,8 @@ glint_status visibility_scratch_make(const visibility *plan, visibility_scratch 
     const bool outline = polygon_list_room(&s->outline, plan->most_corners);
     s->plan = plan;
     if (!views || !all_sectors || !s->lists[0] || !s->lists[1] || !outline || !s->poses ||
-        !s->ring || !s->sides || !s->kept || !s->heights_m || !s->points || !s->nodes || !s->candidates || !s->passed_over) {
+        !s->ring || !s->sides || !s->kept || !s->heights_m || !s->points || !s->nodes ||
+        !s->candidates || !s->passed_over) {
         visibility_scratch_free(s);
         return error_no_memory(error);
     }

@@ -38,29 +38,33 @@ static bool find_spokes(const solids *s, spokes *out)
 }
 
 /* The facet beside `facet` on the other side of one of n edges at a vertex, not `*edge`, which
- * becomes that edge. -1 where there is none. */
+ * becomes that edge. Edges that are -1 are done with. -1 where there is none. */
 static int next_facet(const solids *s, const int *edges, int n, int facet_index, int *edge)
 {
     for (int k = 0; k < n; k++) {
         const solid_edge *e = &s->edges[edges[k]];
-        if (edges[k] < 0 || edges[k] == *edge || (e->left != facet_index && e->right != facet_index)) continue;
+        if (edges[k] < 0 || edges[k] == *edge ||
+            (e->left != facet_index && e->right != facet_index))
+            continue;
         *edge = edges[k];
         return e->left == facet_index ? e->right : e->left;
     }
     return -1;
 }
 
-/* Walks around a vertex of n edges from one of them; returns how many facets follow each other until
- * the first comes again, 0 where it does not. They are written to `out`; edges that are passed are
- * -1 afterwards. */
+/* Walks around a vertex of n edges from one of them; returns how many facets follow each other
+ * until the first comes again, 0 where it does not. They are written to `out`, which has room for
+ * as many as there are edges left; those that are passed are -1 afterwards. */
 static int walk_around(const solids *s, int *edges, int n, int from, int *out)
 {
-    int edge = edges[from], at = s->edges[edge].left, count = 0;
+    int edge = edges[from], at = s->edges[edge].left, count = 0, n_left = 0;
     const int start = at;
+    for (int k = 0; k < n; k++)
+        n_left += edges[k] >= 0;
     do {
         out[count++] = at;
         at = next_facet(s, edges, n, at, &edge);
-    } while (at >= 0 && at != start && count < n);
+    } while (at >= 0 && at != start && count < n_left);
     for (int k = 0; k < n; k++)
         for (int j = 0; j < count && edges[k] >= 0; j++)
             if (s->edges[edges[k]].left == out[j] || s->edges[edges[k]].right == out[j])

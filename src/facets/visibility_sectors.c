@@ -176,7 +176,8 @@ static bool list_facet(sectors *s, const visibility *plan, const exposed_facet *
     shaft_make(plan, &s->view, f, tan(angle), &before);
     /* seen from behind, the sides are inside out: its box must do */
     if (s->view.cosine[f->facet] < ANGLE_MARGIN) before.n_fours = 0;
-    const int n = view_candidates(plan, &s->view, &before, f->root, f->root + 1, s->nodes, s->found);
+    const int n =
+        view_candidates(plan, &s->view, &before, f->root, f->root + 1, s->nodes, s->found);
     int count = n > MANY_FOUND ? LONG : 0;
     mark_fans(s, plan, f, sine);
     for (int k = 0; k < n && count < LONG; k++) {

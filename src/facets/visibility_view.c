@@ -21,8 +21,8 @@ bool view_allocate(view *v, const visibility *plan)
     v->points = malloc((size_t)plan->n_corners * sizeof *v->points);
     v->rings = malloc((size_t)plan->n_occluders * sizeof *v->rings);
     v->next = malloc(n_vertices * sizeof *v->next);
-    return v->axes && v->shift_m && v->vertices && v->cosine && v->nodes && v->roots && v->points && v->rings &&
-           v->next;
+    return v->axes && v->shift_m && v->vertices && v->cosine && v->nodes && v->roots && v->points &&
+           v->rings && v->next;
 }
 
 void view_free(view *v)
@@ -174,8 +174,8 @@ static void bound(const visibility *plan, view *v)
     }
     for (int k = 0; k < plan->n_roots; k++) {
         const box3 box = box_of_node(&v->nodes[plan->roots[k].node]);
-        v->roots[k] = (view_box){(float)box.lo_x, (float)box.hi_x, (float)box.lo_y,
-                                 (float)box.hi_y, (float)box.hi_z};
+        v->roots[k] = (view_box){(float)box.lo_x, (float)box.hi_x, (float)box.lo_y, (float)box.hi_y,
+                                 (float)box.hi_z};
     }
 }
 
@@ -254,8 +254,7 @@ CLONES static void make_sides(const double (*vertices)[3], const int *ring, int 
         const double4 zero = {0};
         s->a[first / 4] = pick4(own, -dy, zero);
         s->b[first / 4] = pick4(own, dx, zero);
-        s->c[first / 4] =
-            pick4(own, dy * x - dx * y - near_m * (size4(dx) + size4(dy)), all4(1.0));
+        s->c[first / 4] = pick4(own, dy * x - dx * y - near_m * (size4(dx) + size4(dy)), all4(1.0));
     }
     s->lo_x = least[0], s->hi_x = -least[2], s->lo_y = least[1], s->hi_y = -least[3];
     s->lo_z = lo_z;

@@ -79,8 +79,8 @@ void shaft_make(const visibility *plan, const view *v, const exposed_facet *f, d
                 shaft *out);
 
 /* Lists the occluders of the trees from one to before another whose boxes reach into the shaft;
- * returns how many. nodes: scratch for plan.n_nodes + NODE_CHILDREN; out: room for plan.n_occluders +
- * NODE_CHILDREN. */
+ * returns how many. nodes: scratch for plan.n_nodes + NODE_CHILDREN; out: room for plan.n_occluders
+ * + NODE_CHILDREN. */
 int view_candidates(const visibility *plan, view *v, const shaft *s, int first_root, int end_root,
                     int *nodes, int *out);
 
