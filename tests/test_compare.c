@@ -581,6 +581,8 @@ START_TEST(test_compare_predicts_between_observations)
     const double outside[] = {60.1}, before[] = {-0.1};
     ck_assert_int_eq(glint_comparison_predict(c.c, outside, 1, 1, predicted, NULL), GLINT_ARGUMENT);
     ck_assert_int_eq(glint_comparison_predict(c.c, before, 1, 1, predicted, NULL), GLINT_ARGUMENT);
+    ck_assert_int_eq(glint_comparison_predict(c.c, r.t_s, r.n, 1025, predicted, NULL),
+                     GLINT_ARGUMENT);
     end(&c);
     const char *const low[] = {"observer.min_elevation_deg=89"};
     glint_scenario *s;
