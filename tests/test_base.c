@@ -1,13 +1,16 @@
-/* test_base.c: the error list, texts, numbers, names, paths, whole files and parameter ranges. */
+/* test_base.c: the error list, texts, growing arrays, numbers, names, paths, whole files and
+ * parameter ranges. */
 #include "testing.h"
 
 #include "base/error.h"
+#include "base/grow.h"
 #include "base/param.h"
 #include "base/random.h"
 #include "base/sorted.h"
 #include "base/text.h"
 
 #include <float.h>
+#include <limits.h>
 #include <stdint.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -594,6 +597,55 @@ START_TEST(test_sorted_interval_stays_within_the_ends)
 }
 END_TEST
 
+/* ---------------------------------------------------------------- arrays */
+
+START_TEST(test_grow_keeps_entries_and_grows_rarely)
+{
+    enum { N = 100000 };
+    long *list = NULL, *room = NULL;
+    size_t of_list = 0;
+    int of_room = 0, n_moves = 0;
+    for (int k = 0; k < N; k++) {
+        const size_t before = of_list;
+        ck_assert(grow_list(&list, &of_list, (size_t)k + 1, sizeof *list));
+        ck_assert(grow_room(&room, &of_room, k + 1L, sizeof *room));
+        ck_assert_uint_gt(of_list, (size_t)k);
+        ck_assert_int_eq(of_room, (int)of_list);
+        n_moves += of_list != before;
+        list[k] = room[k] = 3L * k;
+    }
+    for (int k = 0; k < N; k++)
+        ck_assert(list[k] == 3L * k && room[k] == 3L * k);
+    ck_assert_int_le(n_moves, 17); /* at least doubled each time: log2 of N, rounded up */
+    const size_t enough = of_list;
+    ck_assert(grow_list(&list, &of_list, 1, sizeof *list));
+    ck_assert_uint_eq(of_list, enough);
+    free(list);
+    free(room);
+}
+END_TEST
+
+START_TEST(test_grow_refuses_what_no_memory_can_hold_and_changes_nothing)
+{
+    static const size_t TOO_MANY[] = {SIZE_MAX, SIZE_MAX / 2, SIZE_MAX / sizeof(long)};
+    long *list = NULL;
+    size_t of_list = 0;
+    ck_assert(grow_list(&list, &of_list, 1, sizeof *list));
+    list[0] = 7;
+    long *const held = list;
+    const size_t had = of_list;
+    for (size_t k = 0; k < sizeof TOO_MANY / sizeof TOO_MANY[0]; k++) {
+        ck_assert(!grow_list(&list, &of_list, TOO_MANY[k], sizeof *list));
+        ck_assert_ptr_eq(list, held);
+        ck_assert_uint_eq(of_list, had);
+    }
+    int of_room = (int)of_list;
+    ck_assert(!grow_room(&list, &of_room, 1L + INT_MAX, sizeof *list));
+    ck_assert(list == held && of_room == (int)had && list[0] == 7);
+    free(list);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("base");
@@ -608,6 +660,8 @@ int main(void)
     tcase_add_test(errors, test_error_keeps_a_text_that_just_fits);
     tcase_add_test(texts, test_text_grows_and_stays_terminated);
     tcase_add_test(texts, test_text_remembers_that_memory_ran_out);
+    tcase_add_test(texts, test_grow_keeps_entries_and_grows_rarely);
+    tcase_add_test(texts, test_grow_refuses_what_no_memory_can_hold_and_changes_nothing);
     tcase_add_test(texts, test_string_copy_takes_part_of_a_text);
     tcase_add_test(texts, test_file_read_gives_every_byte);
     tcase_add_test(texts, test_file_read_refuses_what_is_no_file);

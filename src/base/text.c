@@ -1,5 +1,7 @@
 #include "base/text.h"
 
+#include "base/grow.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <stdarg.h>
@@ -28,19 +30,8 @@ bool text_reserve(text *t, size_t n)
         t->failed = true;
         return false;
     }
-    const size_t need = t->length + n + 1;
-    if (need <= t->capacity) return true;
-    size_t capacity = t->capacity ? t->capacity : 128;
-    while (capacity < need)
-        capacity *= 2;
-    char *data = realloc(t->data, capacity);
-    if (!data) {
-        t->failed = true;
-        return false;
-    }
-    t->data = data;
-    t->capacity = capacity;
-    return true;
+    t->failed = !grow_list(&t->data, &t->capacity, t->length + n + 1, 1);
+    return !t->failed;
 }
 
 void text_append(text *t, const char *bytes, size_t n)

@@ -1,5 +1,6 @@
 /* passes.c: passes with what happens in them: light and shadow, darkness, brightness, flashes. */
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/vec.h"
 #include "lightcurve/facts.h"
 #include "lightcurve/pass_parts.h"
@@ -32,13 +33,8 @@ typedef struct pass_search {
 glint_status event_list_add(event_list *list, watch *w, glint_event_kind kind, double t_s,
                             glint_error *error)
 {
-    if (list->n == list->capacity) {
-        const size_t capacity = list->capacity ? 2 * list->capacity : 16;
-        glint_pass_event *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) return error_no_memory(error);
-        list->items = items;
-        list->capacity = capacity;
-    }
+    if (!grow_list(&list->items, &list->capacity, list->n + 1, sizeof *list->items))
+        return error_no_memory(error);
     sighting seen;
     const glint_status status = watch_at(w, t_s, &seen, error);
     if (status) return status;

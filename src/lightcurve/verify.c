@@ -1,4 +1,5 @@
 /* verify.c: holds a run against the values and requirements that its scenario carries. */
+#include "base/grow.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "scenario/scenario.h"
@@ -193,13 +194,8 @@ static bool is_selected(const verification *v, const requirement *r, const size_
 
 static bool keep_excess(tally *t, double excess)
 {
-    if ((size_t)t->selected == t->capacity) {
-        const size_t capacity = t->capacity ? 2 * t->capacity : 1024;
-        double *items = realloc(t->excess, capacity * sizeof *items);
-        if (!items) return false;
-        t->excess = items;
-        t->capacity = capacity;
-    }
+    if (!grow_list(&t->excess, &t->capacity, (size_t)t->selected + 1, sizeof *t->excess))
+        return false;
     t->excess[t->selected] = excess;
     return true;
 }

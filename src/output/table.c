@@ -1,4 +1,5 @@
 /* table.c: a light curve as a CSV table with an ECSV header. */
+#include "base/grow.h"
 #include "base/text.h"
 #include "output/curve_plot.h"
 #include "output/ecsv.h"
@@ -62,13 +63,10 @@ static void chunks_free(chunk_texts *chunks)
 
 static bool chunks_reserve(chunk_texts *chunks, size_t n)
 {
-    if (n > chunks->capacity) {
-        text *items = realloc(chunks->items, n * sizeof *items);
-        if (!items) return false;
-        memset(items + chunks->capacity, 0, (n - chunks->capacity) * sizeof *items);
-        chunks->items = items;
-        chunks->capacity = n;
-    }
+    const size_t had = chunks->capacity;
+    if (!grow_list(&chunks->items, &chunks->capacity, n, sizeof *chunks->items)) return false;
+    for (size_t k = had; k < chunks->capacity; k++)
+        chunks->items[k] = (text){0};
     chunks->n = n;
     return true;
 }
