@@ -267,6 +267,33 @@ START_TEST(test_number_writes_plain_values_plainly)
 }
 END_TEST
 
+START_TEST(test_number_for_people_has_no_sign_where_it_rounds_to_zero)
+{
+    static const struct {
+        double value;
+        int decimals;
+        const char *fixed, *with_sign;
+    } cases[] = {{0.0, 4, "0.0000", "0.0000"},
+                 {-0.0, 4, "0.0000", "0.0000"},
+                 {-4.9e-5, 4, "0.0000", "0.0000"},
+                 {4.9e-5, 4, "0.0000", "0.0000"},
+                 {-5.1e-5, 4, "-0.0001", "-0.0001"},
+                 {5.1e-5, 4, "0.0001", "+0.0001"},
+                 {-0.3, 0, "0", "0"},
+                 {-10.0, 0, "-10", "-10"},
+                 {10.0, 2, "10.00", "+10.00"},
+                 {-1e-300, 9, "0.000000000", "0.000000000"},
+                 {-2.5, 1, "-2.5", "-2.5"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        ck_assert_str_eq(number_fixed(cases[k].value, cases[k].decimals).text, cases[k].fixed);
+        ck_assert_str_eq(number_signed(cases[k].value, cases[k].decimals).text, cases[k].with_sign);
+    }
+    /* the longest */
+    ck_assert_uint_eq(strlen(number_signed(-DBL_MAX, 9).text), 1 + 309 + 1 + 9);
+    ck_assert_str_eq(number_signed(HUGE_VAL, 3).text, "+inf");
+}
+END_TEST
+
 START_TEST(test_number_reads_decimals_as_the_c_library_does)
 {
     static const char *const texts[] = {"0",
@@ -669,6 +696,7 @@ int main(void)
     tcase_add_test(numbers, test_number_round_trips_for_any_bits);
     tcase_add_test(numbers, test_number_round_trips_for_denormals);
     tcase_add_test(numbers, test_number_writes_plain_values_plainly);
+    tcase_add_test(numbers, test_number_for_people_has_no_sign_where_it_rounds_to_zero);
     tcase_add_test(numbers, test_number_reads_decimals_as_the_c_library_does);
     tcase_add_test(numbers, test_number_tells_underflow_from_overflow_of_long_numbers);
     tcase_add_test(numbers, test_number_refuses_what_is_no_decimal_number);

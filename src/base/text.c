@@ -73,6 +73,27 @@ void text_double(text *t, double value)
     t->data[t->length] = '\0';
 }
 
+static number_text without_sign_of_zero(number_text number)
+{
+    const char *digits = number.text + strspn(number.text, "+-");
+    if (digits[strspn(digits, "0.")] == '\0') memmove(number.text, digits, strlen(digits) + 1);
+    return number;
+}
+
+number_text number_fixed(double value, int decimals)
+{
+    number_text out;
+    snprintf(out.text, sizeof out.text, "%.*f", decimals, value);
+    return without_sign_of_zero(out);
+}
+
+number_text number_signed(double value, int decimals)
+{
+    number_text out;
+    snprintf(out.text, sizeof out.text, "%+.*f", decimals, value);
+    return without_sign_of_zero(out);
+}
+
 char *string_copy(const char *s, size_t n)
 {
     char *copy = malloc(n + 1);

@@ -305,7 +305,7 @@ static void report_requirement(const requirement *r, tally *t, text *out)
                 (long long)t->selected, 100 * r->for_fraction);
     const double margin = margin_of(r, t);
     if (margin < HUGE_VAL)
-        text_printf(out, "margin %+.3f mag\n", margin);
+        text_printf(out, "margin %s mag\n", number_signed(margin, 3).text);
     else
         text_add(out, "any brightness would do\n");
 }
@@ -335,10 +335,10 @@ static void judge_requirements(verification *v)
             snprintf(when, sizeof when, "t_s = %.9g", t->worst_row.t_s);
         deviate(v, r->where,
                 "%s is fainter than required in %.4g %% of %lld rows; expected %.4g %%; it breaks "
-                "its limit of %.3f most at %s%s%s with %.3f%s",
+                "its limit of %s most at %s%s%s with %s%s",
                 r->column, 100 * fraction, (long long)t->selected, 100 * r->for_fraction,
-                t->worst_limit, when, several ? " for " : "", several ? t->worst_row.observer : "",
-                t->worst, t->surface);
+                number_fixed(t->worst_limit, 3).text, when, several ? " for " : "",
+                several ? t->worst_row.observer : "", number_fixed(t->worst, 3).text, t->surface);
     }
 }
 

@@ -129,11 +129,8 @@ static void write_facing(const ways *pair, int k, text *out)
                         "xyz"[i]);
             return;
         }
-    const double turned[3] = {w->facing[0] + 0.0, w->facing[1] + 0.0, w->facing[2] + 0.0};
-    text_char(out, '(');
-    for (int i = 0; i < 3; i++) /* no "-0.000" */
-        text_printf(out, "%s%.3f", i ? " " : "", fabs(turned[i]) < 5e-4 ? 0.0 : turned[i]);
-    text_char(out, ')');
+    text_printf(out, "(%s %s %s)", number_fixed(w->facing[0], 3).text,
+                number_fixed(w->facing[1], 3).text, number_fixed(w->facing[2], 3).text);
 }
 
 /* Names the surfaces of one pair. */
