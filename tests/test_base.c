@@ -1,13 +1,16 @@
-/* test_base.c: the error list, texts, numbers, names, paths, whole files and parameter ranges. */
+/* test_base.c: the error list, texts, growing arrays, numbers, names, paths, whole files and
+ * parameter ranges. */
 #include "testing.h"
 
 #include "base/error.h"
+#include "base/grow.h"
 #include "base/param.h"
 #include "base/random.h"
 #include "base/sorted.h"
 #include "base/text.h"
 
 #include <float.h>
+#include <limits.h>
 #include <stdint.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -261,6 +264,33 @@ START_TEST(test_number_writes_plain_values_plainly)
         format(cases[k].value, written);
         ck_assert_str_eq(written, cases[k].text);
     }
+}
+END_TEST
+
+START_TEST(test_number_for_people_has_no_sign_where_it_rounds_to_zero)
+{
+    static const struct {
+        double value;
+        int decimals;
+        const char *fixed, *with_sign;
+    } cases[] = {{0.0, 4, "0.0000", "0.0000"},
+                 {-0.0, 4, "0.0000", "0.0000"},
+                 {-4.9e-5, 4, "0.0000", "0.0000"},
+                 {4.9e-5, 4, "0.0000", "0.0000"},
+                 {-5.1e-5, 4, "-0.0001", "-0.0001"},
+                 {5.1e-5, 4, "0.0001", "+0.0001"},
+                 {-0.3, 0, "0", "0"},
+                 {-10.0, 0, "-10", "-10"},
+                 {10.0, 2, "10.00", "+10.00"},
+                 {-1e-300, 9, "0.000000000", "0.000000000"},
+                 {-2.5, 1, "-2.5", "-2.5"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        ck_assert_str_eq(number_fixed(cases[k].value, cases[k].decimals).text, cases[k].fixed);
+        ck_assert_str_eq(number_signed(cases[k].value, cases[k].decimals).text, cases[k].with_sign);
+    }
+    /* the longest */
+    ck_assert_uint_eq(strlen(number_signed(-DBL_MAX, 9).text), 1 + 309 + 1 + 9);
+    ck_assert_str_eq(number_signed(HUGE_VAL, 3).text, "+inf");
 }
 END_TEST
 
@@ -594,6 +624,55 @@ START_TEST(test_sorted_interval_stays_within_the_ends)
 }
 END_TEST
 
+/* ---------------------------------------------------------------- arrays */
+
+START_TEST(test_grow_keeps_entries_and_grows_rarely)
+{
+    enum { N = 100000 };
+    long *list = NULL, *room = NULL;
+    size_t of_list = 0;
+    int of_room = 0, n_moves = 0;
+    for (int k = 0; k < N; k++) {
+        const size_t before = of_list;
+        ck_assert(grow_list(&list, &of_list, (size_t)k + 1, sizeof *list));
+        ck_assert(grow_room(&room, &of_room, k + 1L, sizeof *room));
+        ck_assert_uint_gt(of_list, (size_t)k);
+        ck_assert_int_eq(of_room, (int)of_list);
+        n_moves += of_list != before;
+        list[k] = room[k] = 3L * k;
+    }
+    for (int k = 0; k < N; k++)
+        ck_assert(list[k] == 3L * k && room[k] == 3L * k);
+    ck_assert_int_le(n_moves, 17); /* at least doubled each time: log2 of N, rounded up */
+    const size_t enough = of_list;
+    ck_assert(grow_list(&list, &of_list, 1, sizeof *list));
+    ck_assert_uint_eq(of_list, enough);
+    free(list);
+    free(room);
+}
+END_TEST
+
+START_TEST(test_grow_refuses_what_no_memory_can_hold_and_changes_nothing)
+{
+    static const size_t TOO_MANY[] = {SIZE_MAX, SIZE_MAX / 2, SIZE_MAX / sizeof(long)};
+    long *list = NULL;
+    size_t of_list = 0;
+    ck_assert(grow_list(&list, &of_list, 1, sizeof *list));
+    list[0] = 7;
+    long *const held = list;
+    const size_t had = of_list;
+    for (size_t k = 0; k < sizeof TOO_MANY / sizeof TOO_MANY[0]; k++) {
+        ck_assert(!grow_list(&list, &of_list, TOO_MANY[k], sizeof *list));
+        ck_assert_ptr_eq(list, held);
+        ck_assert_uint_eq(of_list, had);
+    }
+    int of_room = (int)of_list;
+    ck_assert(!grow_room(&list, &of_room, 1L + INT_MAX, sizeof *list));
+    ck_assert(list == held && of_room == (int)had && list[0] == 7);
+    free(list);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("base");
@@ -608,6 +687,8 @@ int main(void)
     tcase_add_test(errors, test_error_keeps_a_text_that_just_fits);
     tcase_add_test(texts, test_text_grows_and_stays_terminated);
     tcase_add_test(texts, test_text_remembers_that_memory_ran_out);
+    tcase_add_test(texts, test_grow_keeps_entries_and_grows_rarely);
+    tcase_add_test(texts, test_grow_refuses_what_no_memory_can_hold_and_changes_nothing);
     tcase_add_test(texts, test_string_copy_takes_part_of_a_text);
     tcase_add_test(texts, test_file_read_gives_every_byte);
     tcase_add_test(texts, test_file_read_refuses_what_is_no_file);
@@ -615,6 +696,7 @@ int main(void)
     tcase_add_test(numbers, test_number_round_trips_for_any_bits);
     tcase_add_test(numbers, test_number_round_trips_for_denormals);
     tcase_add_test(numbers, test_number_writes_plain_values_plainly);
+    tcase_add_test(numbers, test_number_for_people_has_no_sign_where_it_rounds_to_zero);
     tcase_add_test(numbers, test_number_reads_decimals_as_the_c_library_does);
     tcase_add_test(numbers, test_number_tells_underflow_from_overflow_of_long_numbers);
     tcase_add_test(numbers, test_number_refuses_what_is_no_decimal_number);

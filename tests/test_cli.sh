@@ -253,6 +253,8 @@ t 'a run over its Earth orientation' 3 ephemeris -q inputs/all.toml -o inputs/eo
     --set 'orbit={circular={geostationary_longitude_deg=10}}'
 has "$err" "inputs/eop.txt: error: the scenario is read from this file"
 t 'a run over its picture' 2 run plate.toml -o same.svg --plot same.svg
+t 'a run over its picture, spelled in two ways' 2 run plate.toml -o ./same.svg --plot same.svg
+has "$err" "both go to 'same.svg'"
 t 'an absent scenario' 1 run absent.toml
 empty "$out"
 has "$err" absent.toml 'No such file'

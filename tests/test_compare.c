@@ -423,6 +423,31 @@ START_TEST(test_compare_degenerate_tracks_have_no_correlation)
 }
 END_TEST
 
+/* What rounds to zero is written without a sign, from either side. */
+START_TEST(test_compare_table_has_no_negative_zeros)
+{
+    const rows r = sound_curve();
+    for (int side = -1; side <= 1; side += 2) {
+        char track[4096];
+        int n = sprintf(track, "utc,magnitude\n");
+        for (size_t k = 0; k < r.n; k++)
+            n += sprintf(track + n, "%s,%.15g\n", r.utc[k], r.magnitude[k] + side * 1e-6);
+        write_file("track.csv", track);
+        compared c = compare(CSV);
+        ck_assert_int_eq(glint_comparison_write(c.c, GLINT_FORMAT_TABLE, in_folder("out"), NULL),
+                         GLINT_OK);
+        char *bytes = read_bytes(in_folder("out"), NULL);
+        ck_assert_ptr_nonnull(
+            strstr(bytes, "mean 0.0000, scatter 0.0000, rms 0.0000, largest 0.0000 mag\n"));
+        ck_assert_ptr_nonnull(strstr(bytes, "     0.000 "));
+        ck_assert_ptr_null(strstr(bytes, "-0.0"));
+        ck_assert_ptr_null(strstr(bytes, "+0.0"));
+        free(bytes);
+        end(&c);
+    }
+}
+END_TEST
+
 /* ------------------------------------------------------------------ formats */
 
 /* Two tracks of MMT, with comments and without, with the number of the track. */
@@ -581,6 +606,8 @@ START_TEST(test_compare_predicts_between_observations)
     const double outside[] = {60.1}, before[] = {-0.1};
     ck_assert_int_eq(glint_comparison_predict(c.c, outside, 1, 1, predicted, NULL), GLINT_ARGUMENT);
     ck_assert_int_eq(glint_comparison_predict(c.c, before, 1, 1, predicted, NULL), GLINT_ARGUMENT);
+    ck_assert_int_eq(glint_comparison_predict(c.c, r.t_s, r.n, 1025, predicted, NULL),
+                     GLINT_ARGUMENT);
     end(&c);
     const char *const low[] = {"observer.min_elevation_deg=89"};
     glint_scenario *s;
@@ -768,6 +795,7 @@ int main(void)
     tcase_add_test(numbers, test_compare_counts_what_it_leaves_out);
     tcase_add_test(numbers, test_compare_observations_in_any_order_and_over_days);
     tcase_add_test(numbers, test_compare_track_of_one_of_two_observers);
+    tcase_add_test(numbers, test_compare_table_has_no_negative_zeros);
     tcase_add_test(numbers, test_compare_degenerate_tracks_have_no_correlation);
     tcase_add_checked_fixture(files, folder_make, folder_remove);
     tcase_add_test(files, test_compare_any_number_of_threads_gives_the_same_numbers);

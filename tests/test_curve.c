@@ -561,6 +561,7 @@ START_TEST(test_curve_open_takes_a_sensible_number_of_threads)
         ck_assert_int_eq(glint_curve_open(s, wrong[k], &curve, errors), GLINT_ARGUMENT);
         ck_assert_ptr_null(curve);
         ck_assert_uint_eq(glint_errors_error_count(errors), 1);
+        ck_assert_ptr_nonnull(strstr(glint_errors_get(errors, 0)->message, "expected 1 to 1024"));
         glint_errors_free(errors);
     }
     ck_assert_int_eq(glint_curve_open(s, 0, &curve, NULL), GLINT_OK);

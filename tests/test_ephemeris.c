@@ -502,6 +502,23 @@ START_TEST(test_ephemeris_refuses_given_directions)
 }
 END_TEST
 
+START_TEST(test_ephemeris_open_takes_a_sensible_number_of_threads)
+{
+    static const int wrong[] = {-1, 1025};
+    glint_scenario *s = read_with(SOUND, PART_TOP, "");
+    glint_ephemeris *e;
+    glint_error error;
+    for (size_t k = 0; k < COUNT_OF(wrong); k++) {
+        ck_assert_int_eq(glint_ephemeris_open(s, wrong[k], &e, &error), GLINT_ARGUMENT);
+        ck_assert_ptr_null(e);
+        ck_assert_ptr_nonnull(strstr(error.message, "expected 1 to 1024"));
+    }
+    ck_assert_int_eq(glint_ephemeris_open(s, 0, &e, &error), GLINT_OK);
+    glint_ephemeris_close(e);
+    glint_scenario_free(s);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("ephemeris");
@@ -520,6 +537,7 @@ int main(void)
     tcase_add_test(tc, test_ephemeris_tells_the_angles_of_hinges);
     tcase_add_test(tc, test_ephemeris_agrees_with_light_curves);
     tcase_add_test(tc, test_ephemeris_refuses_given_directions);
+    tcase_add_test(tc, test_ephemeris_open_takes_a_sensible_number_of_threads);
     suite_add_tcase(suite, tc);
     return run_suite(suite);
 }

@@ -869,7 +869,7 @@ static bool check_picture(const series *s, const char *models, const char *const
     glint_error error;
     char path[1024];
     snprintf(path, sizeof path, "%s", path_in(folder, "fit.svg"));
-    if (glint_plot_check(path, &error) == GLINT_OUTPUT) {
+    if (glint_plot_check(path, NULL, &error) == GLINT_OUTPUT) {
         printf("SKIPPED: pictures of fits: %s\n", error.message);
         return false;
     }

@@ -4,6 +4,8 @@
 #include "lightcurve/tile.h"
 #include "mesh_files.h"
 
+#include <limits.h>
+
 /* ---------------------------------------------------------------- copies of primitives */
 
 typedef void normal_at(const double point[3], double out[3]);
@@ -381,6 +383,28 @@ START_TEST(test_tile_threads_share_a_stated_work_space)
 }
 END_TEST
 
+START_TEST(test_tile_count_of_threads_is_1_to_1024_or_all_processors)
+{
+    static const int wrong[] = {INT_MIN, -1, 1025, INT_MAX};
+    glint_error error = {0};
+    int n = -7;
+    for (size_t k = 0; k < COUNT_OF(wrong); k++) {
+        ck_assert_int_eq(tile_count_threads(wrong[k], &n, &error), GLINT_ARGUMENT);
+        char found[32];
+        snprintf(found, sizeof found, "%d threads", wrong[k]);
+        ck_assert_ptr_nonnull(strstr(error.message, found));
+        ck_assert_ptr_nonnull(strstr(error.message, "expected 1 to 1024, or 0"));
+        ck_assert_int_eq(n, -7);
+    }
+    for (int wanted = 1; wanted <= 1024; wanted += 341) {
+        ck_assert_int_eq(tile_count_threads(wanted, &n, &error), GLINT_OK);
+        ck_assert_int_eq(n, wanted);
+    }
+    ck_assert_int_eq(tile_count_threads(0, &n, &error), GLINT_OK);
+    ck_assert_int_ge(n, 1);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("mesh light");
@@ -395,6 +419,7 @@ int main(void)
     tcase_add_test(tcase, test_mesh_of_many_triangles_is_read_whole);
     tcase_add_test(tcase, test_mesh_fan_about_one_corner_is_smoothed);
     tcase_add_test(tcase, test_tile_threads_share_a_stated_work_space);
+    tcase_add_test(tcase, test_tile_count_of_threads_is_1_to_1024_or_all_processors);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);
 }

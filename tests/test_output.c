@@ -2,6 +2,8 @@
 #define _GNU_SOURCE /* O_TMPFILE */
 #include "scenario_text.h"
 
+#include "output/file.h"
+
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -483,6 +485,67 @@ START_TEST(test_output_to_a_place_that_cannot_be_written_fails)
 }
 END_TEST
 
+/* Ways to name a.svg in the folder, which has sub/, a link `back` to itself, a link b.svg to a.svg
+ * and a link c.svg to that. */
+static const char *const SPELLINGS[] = {
+    "a.svg", "./a.svg", "sub/../a.svg",      "sub//.././a.svg",  "back/a.svg",
+    "b.svg", "c.svg",   "sub/../back/c.svg", "back/sub/../b.svg"};
+
+static void assert_one_file(const char *when)
+{
+    for (size_t k = 0; k < COUNT_OF(SPELLINGS); k++) {
+        for (size_t j = 0; j < COUNT_OF(SPELLINGS); j++) {
+            glint_error error = {0};
+            const glint_status status =
+                out_file_check_two(in_folder(SPELLINGS[k]), in_folder(SPELLINGS[j]), &error);
+            ck_assert_msg(status == GLINT_ARGUMENT, "%s and %s, %s", SPELLINGS[k], SPELLINGS[j],
+                          when);
+            ck_assert_ptr_nonnull(strstr(error.message, in_folder(SPELLINGS[j])));
+        }
+        ck_assert_int_eq(out_file_check_two(SPELLINGS[k], in_folder("a.svg"), NULL),
+                         GLINT_ARGUMENT); /* seen from the folder itself */
+    }
+}
+
+START_TEST(test_output_of_table_and_picture_to_one_file_is_refused_however_it_is_spelled)
+{
+    ck_assert_int_eq(mkdir(in_folder("sub"), 0755), 0);
+    ck_assert_int_eq(symlink(".", in_folder("back")), 0);
+    ck_assert_int_eq(symlink("a.svg", in_folder("b.svg")), 0);
+    ck_assert_int_eq(symlink("sub/../b.svg", in_folder("c.svg")), 0);
+    ck_assert_int_eq(chdir(folder), 0);
+    assert_one_file("which is not there yet");
+    write_file("a.svg", "old");
+    assert_one_file("which is there");
+    ck_assert_int_eq(chdir("/"), 0);
+    ck_assert_int_eq(out_file_check_two("no/such/a.svg", "no/such/a.svg", NULL), GLINT_ARGUMENT);
+    glint_scenario *s = read_with(SOUND, PART_TOP, "");
+    glint_curve *curve = open_curve(s);
+    ck_assert_int_eq(glint_table_write(curve, in_folder("a.svg"), in_folder("sub/../c.svg"), NULL,
+                                       NULL, NULL, NULL),
+                     GLINT_ARGUMENT);
+    ck_assert_int_eq(glint_curve_done(curve), 0);
+    glint_curve_close(curve);
+    glint_scenario_free(s);
+}
+END_TEST
+
+START_TEST(test_output_of_table_and_picture_to_two_files_is_accepted)
+{
+    ck_assert_int_eq(mkdir(in_folder("sub"), 0755), 0);
+    const char *const a = write_file("a.svg", "old"), *const twin = in_folder("twin.svg");
+    const char *const others[] = {in_folder("b.svg"), in_folder("sub/a.svg"), in_folder("A.svg"),
+                                  in_folder("no/such/a.svg"), twin};
+    ck_assert_int_eq(link(a, twin), 0); /* each name is replaced on its own */
+    for (size_t k = 0; k < COUNT_OF(others); k++) {
+        ck_assert_int_eq(out_file_check_two(a, others[k], NULL), GLINT_OK);
+        ck_assert_int_eq(out_file_check_two(others[k], a, NULL), GLINT_OK);
+    }
+    ck_assert_int_eq(out_file_check_two(NULL, a, NULL), GLINT_OK);
+    ck_assert_int_eq(out_file_check_two(a, NULL, NULL), GLINT_OK);
+}
+END_TEST
+
 START_TEST(test_output_to_a_name_of_the_greatest_length)
 {
     glint_scenario *s = read_with(SOUND, PART_TOP, "");
@@ -697,6 +760,9 @@ static Suite *output_suite(void)
     tcase_add_checked_fixture(files, folder_make, folder_remove);
     tcase_set_timeout(files, 60);
     tcase_add_test(files, test_output_to_a_place_that_cannot_be_written_fails);
+    tcase_add_test(files,
+                   test_output_of_table_and_picture_to_one_file_is_refused_however_it_is_spelled);
+    tcase_add_test(files, test_output_of_table_and_picture_to_two_files_is_accepted);
     tcase_add_test(files, test_output_to_a_name_of_the_greatest_length);
     tcase_add_test(files, test_output_to_a_device_leaves_it_a_device);
     tcase_add_test(files, test_output_to_a_named_pipe_goes_through_it);

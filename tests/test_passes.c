@@ -807,6 +807,8 @@ START_TEST(test_passes_refuse_wrong_calls)
                      GLINT_ARGUMENT);
     ck_assert_int_eq(glint_passes_find(s, &(glint_pass_options){0, -1}, &passes, NULL),
                      GLINT_ARGUMENT);
+    ck_assert_int_eq(glint_passes_find(s, &(glint_pass_options){0, 1025}, &passes, NULL),
+                     GLINT_ARGUMENT);
     /* it has no satellite: no light curve */
     glint_curve *curve;
     ck_assert_int_eq(glint_curve_open(s, 1, &curve, NULL), GLINT_ARGUMENT);

@@ -60,7 +60,7 @@ static void assert_message(const glint_error *error, const char *wanted)
 static bool has_gnuplot(const char *what)
 {
     glint_error error;
-    if (glint_plot_check(in_folder("try.png"), &error) == GLINT_OK) return true;
+    if (glint_plot_check(in_folder("try.png"), NULL, &error) == GLINT_OK) return true;
     printf("SKIPPED: %s: no gnuplot\n", what);
     return false;
 }
@@ -173,12 +173,12 @@ START_TEST(test_plot_without_gnuplot_says_what_to_install)
     for (size_t k = 0; k < COUNT_OF(paths); k++) {
         glint_error error = {0};
         ck_assert_int_eq(setenv("PATH", paths[k], 1), 0);
-        ck_assert_int_eq(glint_plot_check(in_folder("a.png"), &error), GLINT_OUTPUT);
+        ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL, &error), GLINT_OUTPUT);
         assert_message(&error, "gnuplot-nox");
         ck_assert_str_eq(error.file, in_folder("a.png"));
     }
     ck_assert_int_eq(unsetenv("PATH"), 0);
-    ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL), GLINT_OUTPUT);
+    ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL, NULL), GLINT_OUTPUT);
     ck_assert_int_eq(chdir("/"), 0);
     ck_assert_int_eq(folder_count(), 1);
 }
@@ -192,9 +192,9 @@ START_TEST(test_plot_passes_over_what_is_no_program)
     ck_assert_int_eq(mkdir(in_folder("first/gnuplot"), 0755), 0); /* a folder of that name */
     snprintf(path, sizeof path, "%s/first:%s", folder, folder);
     ck_assert_int_eq(setenv("PATH", path, 1), 0);
-    ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL), GLINT_OK);
+    ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL, NULL), GLINT_OK);
     ck_assert_int_eq(chmod(in_folder("gnuplot"), 0644), 0);
-    ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL), GLINT_OUTPUT);
+    ck_assert_int_eq(glint_plot_check(in_folder("a.png"), NULL, NULL), GLINT_OUTPUT);
     ck_assert_int_eq(rmdir(in_folder("first/gnuplot")), 0);
 }
 END_TEST
@@ -205,7 +205,7 @@ START_TEST(test_plot_of_another_kind_is_refused)
     fake_gnuplot("exec cat");
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         glint_error error = {0};
-        ck_assert_msg(glint_plot_check(names[k], &error) == GLINT_ARGUMENT, "%s", names[k]);
+        ck_assert_msg(glint_plot_check(names[k], NULL, &error) == GLINT_ARGUMENT, "%s", names[k]);
         assert_message(&error, ".svg, .png or .pdf");
     }
 }
@@ -215,10 +215,21 @@ START_TEST(test_plot_where_nothing_can_be_written_is_refused)
 {
     fake_gnuplot("exec cat");
     glint_error error = {0};
-    ck_assert_int_eq(glint_plot_check(in_folder("no/such/a.png"), &error), GLINT_OUTPUT);
+    ck_assert_int_eq(glint_plot_check(in_folder("no/such/a.png"), NULL, &error), GLINT_OUTPUT);
     ck_assert_int_eq(mkdir(in_folder("folder.png"), 0755), 0);
-    ck_assert_int_eq(glint_plot_check(in_folder("folder.png"), &error), GLINT_OUTPUT);
+    ck_assert_int_eq(glint_plot_check(in_folder("folder.png"), NULL, &error), GLINT_OUTPUT);
     assert_message(&error, "directory");
+}
+END_TEST
+
+START_TEST(test_plot_in_the_place_of_its_table_is_refused)
+{
+    fake_gnuplot("exec cat");
+    glint_error error = {0};
+    ck_assert_int_eq(glint_plot_check(in_folder("a.svg"), in_folder("./a.svg"), &error),
+                     GLINT_ARGUMENT);
+    assert_message(&error, "expected two files");
+    ck_assert_int_eq(glint_plot_check(in_folder("a.svg"), in_folder("a.csv"), &error), GLINT_OK);
 }
 END_TEST
 
@@ -631,6 +642,7 @@ int main(void)
     tcase_add_test(all, test_plot_without_gnuplot_says_what_to_install);
     tcase_add_test(all, test_plot_passes_over_what_is_no_program);
     tcase_add_test(all, test_plot_of_another_kind_is_refused);
+    tcase_add_test(all, test_plot_in_the_place_of_its_table_is_refused);
     tcase_add_test(all, test_plot_where_nothing_can_be_written_is_refused);
     tcase_add_test(all, test_plot_quote_keeps_a_text_in_its_quotes);
     tcase_add_test(all, test_plot_quote_lets_gnuplot_run_nothing);

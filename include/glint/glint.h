@@ -77,8 +77,8 @@ glint_status glint_scenario_read_orbit(const char *path, const char *const *over
                                        size_t n_overrides, glint_scenario **out,
                                        glint_errors *errors);
 void glint_scenario_free(glint_scenario *scenario);
-/* True when a path names a file that the scenario was read from (itself, models, materials, expected
- * values, observations): nothing should be written there. */
+/* True when a path names a file that the scenario was read from (itself, models, materials,
+ * expected values, observations): nothing should be written there. */
 bool glint_scenario_reads(const glint_scenario *scenario, const char *path);
 
 /* ------------------------------------------------------------- light curve */
@@ -103,16 +103,16 @@ typedef struct glint_utc {
  * those of the Moon's place, are 0 where the observer is not a site; those of the Moon where
  * [output] moon does not ask for them. */
 typedef struct glint_row {
-    glint_utc utc;            /* of reception at the observer; not set in [geometry] runs */
-    double t_s;               /* TT seconds from the start of the scenario */
-    double range_m;           /* observer to satellite, along the light path */
-    double phase_angle_rad;   /* at the satellite, between Sun and observer */
-    double sunlit_fraction;   /* visible part of the solar disc */
-    double azimuth_rad;       /* from north through east */
-    double elevation_rad;     /* geometric, or apparent where the site has refraction */
-    double sun_elevation_rad; /* topocentric, geometric */
-    double airmass;           /* 0 below the horizon */
-    double height_m;          /* geodetic, of the satellite; 0 where nothing asks for it */
+    glint_utc utc;             /* of reception at the observer; not set in [geometry] runs */
+    double t_s;                /* TT seconds from the start of the scenario */
+    double range_m;            /* observer to satellite, along the light path */
+    double phase_angle_rad;    /* at the satellite, between Sun and observer */
+    double sunlit_fraction;    /* visible part of the solar disc */
+    double azimuth_rad;        /* from north through east */
+    double elevation_rad;      /* geometric, or apparent where the site has refraction */
+    double sun_elevation_rad;  /* topocentric, geometric */
+    double airmass;            /* 0 below the horizon */
+    double height_m;           /* geodetic, of the satellite; 0 where nothing asks for it */
     double angular_rate_rad_s; /* against the stars; 0 where nothing asks for it */
     double site_height_m;      /* of the observer above the ellipsoid; 0 where it is no site */
     double moon_azimuth_rad, moon_elevation_rad; /* topocentric, geometric */
@@ -228,16 +228,16 @@ glint_status glint_table_write(glint_curve *curve, const char *path, const char 
 
 /* What happens during a pass. */
 typedef enum glint_event_kind {
-    GLINT_RISE,           /* above min_elevation_deg from here on */
-    GLINT_CULMINATION,    /* highest */
-    GLINT_SET,            /* below min_elevation_deg from here on */
-    GLINT_UMBRA_END,      /* the first of the Sun is seen from the satellite */
-    GLINT_PENUMBRA_END,   /* all of it */
-    GLINT_PENUMBRA_BEGIN, /* no longer all of it */
-    GLINT_UMBRA_BEGIN,    /* nothing of it */
+    GLINT_RISE,              /* above min_elevation_deg from here on */
+    GLINT_CULMINATION,       /* highest */
+    GLINT_SET,               /* below min_elevation_deg from here on */
+    GLINT_UMBRA_END,         /* the first of the Sun is seen from the satellite */
+    GLINT_PENUMBRA_END,      /* all of it */
+    GLINT_PENUMBRA_BEGIN,    /* no longer all of it */
+    GLINT_UMBRA_BEGIN,       /* nothing of it */
     GLINT_MOON_SHADOW_BEGIN, /* the Moon begins to cover what is seen of it */
     GLINT_MOON_SHADOW_END,   /* the Moon leaves it */
-    GLINT_DARKNESS_BEGIN, /* the Sun sets below sun_elevation_max_deg at the site */
+    GLINT_DARKNESS_BEGIN,    /* the Sun sets below sun_elevation_max_deg at the site */
     GLINT_DARKNESS_END,
     GLINT_BRIGHTEST, /* smallest magnitude in the first band */
     GLINT_FLASH,     /* a flat surface mirrors the Sun towards the observer, as nearly as it will */
@@ -291,13 +291,14 @@ typedef struct glint_pass_options {
  * order of the file, and in order of time over each. */
 typedef struct glint_passes glint_passes;
 
-/* Whether a scenario can have passes, before any are looked for. Errors: GLINT_INPUT (directions are
- * given instead of an orbit; no observer is a site). */
+/* Whether a scenario can have passes, before any are looked for. Errors: GLINT_INPUT (directions
+ * are given instead of an orbit; no observer is a site). */
 glint_status glint_passes_check(const glint_scenario *scenario, glint_error *error);
 /* Finds them. scenario: must outlive *out; of glint_scenario_read_orbit, or glint_scenario_read.
  * options: NULL for what is usual. Rise, set and the Earth's shadow are found as roots, to 1e-6 s;
  * [time] step_s plays no part. Observers that are no sites are passed over. Errors: those of
- * glint_passes_check; GLINT_INPUT (the orbit fails at some time), GLINT_ARGUMENT, GLINT_INTERNAL. */
+ * glint_passes_check; GLINT_INPUT (the orbit fails at some time), GLINT_ARGUMENT, GLINT_INTERNAL.
+ */
 glint_status glint_passes_find(const glint_scenario *scenario, const glint_pass_options *options,
                                glint_passes **out, glint_error *error);
 void glint_passes_free(glint_passes *passes);
@@ -396,8 +397,10 @@ glint_status glint_ephemeris_write(glint_ephemeris *ephemeris, glint_format form
 
 /* Whether a picture can be drawn into a file: its name ends in .svg, .png or .pdf, gnuplot (a
  * program of its own) is found on PATH, and the file can be written. Pictures appear whole or not
- * at all. Errors: GLINT_ARGUMENT for another name, GLINT_OUTPUT. */
-glint_status glint_plot_check(const char *path, glint_error *error);
+ * at all. table: the file that a table is to go to at the same time; NULL: none, or standard
+ * output. Errors: GLINT_ARGUMENT for another name, and where the table goes to the same file,
+ * though it be spelled in another way or reached through links; GLINT_OUTPUT. */
+glint_status glint_plot_check(const char *path, const char *table, glint_error *error);
 
 /* ------------------------------------------------------------------- views */
 
@@ -536,8 +539,8 @@ glint_status glint_check(const char *path, const char *const *overrides, size_t 
 typedef struct glint_verdict {
     int64_t expectations; /* values and requirements compared */
     int64_t deviations;   /* of these, not met */
-    char *requirements;   /* for each [[require]] that selects rows a line that says how it fares and
-                             with what margin; NULL without; free it with glint_free */
+    char *requirements; /* for each [[require]] that selects rows a line that says how it fares and
+                           with what margin; NULL without; free it with glint_free */
 } glint_verdict;
 
 /* Runs a scenario and holds it against its [[expect]], [expect_table] and [[require]]. Every
@@ -548,7 +551,8 @@ glint_status glint_verify(const char *path, const char *const *overrides, size_t
 
 /* ------------------------------------------------------------------- shares */
 
-/* Changes of a satellite, to see what a part of it does. Zero-initialise for none. Texts borrowed. */
+/* Changes of a satellite, to see what a part of it does. Zero-initialise for none. Texts borrowed.
+ */
 typedef struct glint_changes {
     const char *const *swaps; /* "A=B": material B in place of A, in all components; "bus/A=B": in
                                  that component alone, which then wins. All are made at once */
@@ -586,7 +590,7 @@ typedef struct glint_share {
 
 /* What a whole run came to. */
 typedef struct glint_shares_total {
-    int64_t rows, bright_rows; /* of the run; with any light */
+    int64_t rows, bright_rows;               /* of the run; with any light */
     double magnitude_mean, magnitude_median; /* of those */
     double magnitude_peak;                   /* the brightest */
     double peak_t_s;
@@ -597,16 +601,16 @@ typedef struct glint_shares_total {
 
 /* Magnitudes of the changed satellite less those of the one in the file. */
 typedef struct glint_shares_change {
-    int64_t rows;              /* in which both have light */
-    int64_t lost, gained;      /* rows in which only the one in the file has, only the changed one */
+    int64_t rows;         /* in which both have light */
+    int64_t lost, gained; /* rows in which only the one in the file has, only the changed one */
     double mean, median, min, max; /* mag; over those rows */
     bool has_peak;                 /* both have light at the brightest row of the one in the file */
     double at_peak;                /* mag, there */
     double peak;                   /* mag: brightest of the one, less brightest of the other */
 } glint_shares_change;
 
-/* Runs a scenario, and once more with the changes where there are any. changes: NULL: none. threads:
- * 0 for all processors. progress: as of glint_table_write, NULL allowed. Errors: as
+/* Runs a scenario, and once more with the changes where there are any. changes: NULL: none.
+ * threads: 0 for all processors. progress: as of glint_table_write, NULL allowed. Errors: as
  * glint_scenario_read and glint_curve_next; GLINT_ARGUMENT for changes that cannot be made. */
 glint_status glint_shares_find(const char *path, const char *const *overrides, size_t n_overrides,
                                const glint_changes *changes, int threads, glint_progress *progress,
@@ -628,9 +632,9 @@ const glint_scenario *glint_shares_scenario(const glint_shares *shares, bool cha
 /* Writes them as a table. path: as of glint_table_write. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
 glint_status glint_shares_write(const glint_shares *shares, glint_format format, const char *path,
                                 glint_error *error);
-/* Draws the magnitudes over time and the shares below them, piled up, of the changed satellite where
- * there are changes; runs the curve again for it. path: as glint_plot_check takes it. Errors: the
- * same; of glint_curve_next. */
+/* Draws the magnitudes over time and the shares below them, piled up, of the changed satellite
+ * where there are changes; runs the curve again for it. path: as glint_plot_check takes it. Errors:
+ * the same; of glint_curve_next. */
 glint_status glint_shares_plot(const glint_shares *shares, int threads, const char *path,
                                glint_error *error);
 
@@ -641,9 +645,9 @@ typedef struct glint_comparison glint_comparison;
 
 typedef enum glint_observation_state {
     GLINT_COMPARED,
-    GLINT_PREDICTED_ECLIPSED,  /* in the Earth's umbra: no light is predicted */
-    GLINT_PREDICTED_NOT_SEEN,  /* below the horizon, or behind the Earth */
-    GLINT_PREDICTED_DARK       /* nothing lit is seen */
+    GLINT_PREDICTED_ECLIPSED, /* in the Earth's umbra: no light is predicted */
+    GLINT_PREDICTED_NOT_SEEN, /* below the horizon, or behind the Earth */
+    GLINT_PREDICTED_DARK      /* nothing lit is seen */
 } glint_observation_state;
 
 /* One observation; mag, m, rad. */
@@ -652,7 +656,7 @@ typedef struct glint_observation {
     glint_utc utc;
     double t_s; /* TT seconds from the start */
     glint_observation_state state;
-    double observed, sigma; /* as in the file; sigma 0 where not said */
+    double observed, sigma;     /* as in the file; sigma 0 where not said */
     double predicted, residual; /* of the same kind of magnitude, without the fitted zero point;
                                    observed - predicted - zero point. Where compared, else 0 */
     double range_m, phase_rad, elevation_rad, sunlit_fraction; /* as predicted */
@@ -661,34 +665,34 @@ typedef struct glint_observation {
 
 /* What a comparison came to; mag. Numbers are 0 where nothing was compared. */
 typedef struct glint_comparison_summary {
-    int64_t observations;  /* in the file */
-    int64_t compared;      /* of these; all others are counted below */
+    int64_t observations; /* in the file */
+    int64_t compared;     /* of these; all others are counted below */
     int64_t eclipsed, not_seen, dark;
     int64_t outside_time, other_filter, without_magnitude;
-    int64_t penumbra;      /* compared, but in the penumbra */
-    bool fitted;           /* a zero point was fitted */
-    double zero_point;     /* that is added to the prediction: the mean of observed - predicted,
-                              weighted with 1/sigma^2 where every row has one; 0 without a fit */
+    int64_t penumbra;        /* compared, but in the penumbra */
+    bool fitted;             /* a zero point was fitted */
+    double zero_point;       /* that is added to the prediction: the mean of observed - predicted,
+                                weighted with 1/sigma^2 where every row has one; 0 without a fit */
     double zero_point_sigma; /* its standard error, from the scatter or the sigmas */
-    double mean, scatter;  /* of the residuals; standard deviation about the mean, of n */
-    double rms;            /* root of the mean square of the residuals */
-    double largest;        /* residual of the largest size */
-    bool has_r;            /* there are two rows, and neither series is constant */
-    double r;              /* Pearson's correlation of observed and predicted */
+    double mean, scatter;    /* of the residuals; standard deviation about the mean, of n */
+    double rms;              /* root of the mean square of the residuals */
+    double largest;          /* residual of the largest size */
+    bool has_r;              /* there are two rows, and neither series is constant */
+    double r;                /* Pearson's correlation of observed and predicted */
     int64_t with_sigma;
-    double chi2;           /* sum of (residual / sigma)^2 over the rows with a sigma */
-    int64_t freedom;       /* its degrees of freedom: with_sigma, less 1 with a fit */
+    double chi2;            /* sum of (residual / sigma)^2 over the rows with a sigma */
+    int64_t freedom;        /* its degrees of freedom: with_sigma, less 1 with a fit */
     bool has_chi2_relative; /* all observed magnitudes are above 0 */
-    double chi2_relative;  /* mean of residual^2 / observed, as of Fankhauser et al. 2023 */
-    int64_t with_range, with_phase; /* observations that say so */
+    double chi2_relative;   /* mean of residual^2 / observed, as of Fankhauser et al. 2023 */
+    int64_t with_range, with_phase;        /* observations that say so */
     double range_mean_m, range_most_m;     /* observed - predicted, of those; largest size */
     double phase_mean_rad, phase_most_rad; /* the same */
     const char *title, *band, *kind, *format, *file; /* borrowed from the scenario */
 } glint_comparison_summary;
 
-/* Compares. scenario: with [observed]; must outlive *out. threads: 0 for all processors; numbers are
- * the same on any number. Errors: GLINT_INPUT (no [observed]; directions are given; the orbit fails
- * at some time), GLINT_ARGUMENT (threads), GLINT_INTERNAL. */
+/* Compares. scenario: with [observed]; must outlive *out. threads: 0 for all processors; numbers
+ * are the same on any number. Errors: GLINT_INPUT (no [observed]; directions are given; the orbit
+ * fails at some time), GLINT_ARGUMENT (threads), GLINT_INTERNAL. */
 glint_status glint_compare(const glint_scenario *scenario, int threads, glint_comparison **out,
                            glint_error *error);
 void glint_comparison_free(glint_comparison *comparison);
@@ -700,15 +704,16 @@ void glint_comparison_total(const glint_comparison *comparison, glint_comparison
 bool glint_comparison_fact(const glint_comparison *comparison, size_t k, const char **key,
                            const char **value);
 /* Predicts between the observations. t_s: n moments, TT s from the start, each not before the last,
- * within the scenario's time. predicted: n; magnitudes as glint_observation has them, HUGE_VAL where
- * nothing is seen. Errors: those of glint_compare; GLINT_ARGUMENT for other moments. */
+ * within the scenario's time. predicted: n; magnitudes as glint_observation has them, HUGE_VAL
+ * where nothing is seen. Errors: those of glint_compare; GLINT_ARGUMENT for other moments. */
 glint_status glint_comparison_predict(const glint_comparison *comparison, const double *t_s,
                                       size_t n, int threads, double *predicted, glint_error *error);
 /* Writes it as a table; path: as of glint_table_write. Errors: GLINT_OUTPUT, GLINT_INTERNAL. */
 glint_status glint_comparison_write(const glint_comparison *comparison, glint_format format,
                                     const char *path, glint_error *error);
 /* Draws it, with the curve predicted between observations. path: as glint_plot_check takes it.
- * Errors: the same; those of glint_comparison_predict; GLINT_INPUT where there is nothing to draw. */
+ * Errors: the same; those of glint_comparison_predict; GLINT_INPUT where there is nothing to draw.
+ */
 glint_status glint_comparison_plot(const glint_comparison *comparison, int threads,
                                    const char *path, glint_error *error);
 /* "compared", "eclipsed", "not-seen", "dark". */

@@ -1,5 +1,6 @@
 #include "base/csv.h"
 
+#include "base/grow.h"
 #include "base/text.h"
 
 #include <stdlib.h>
@@ -37,13 +38,8 @@ static void next_line(reader *r)
 
 static bool push(reader *r, csv_cell cell)
 {
-    if (r->count == r->capacity) {
-        const size_t capacity = r->capacity ? 2 * r->capacity : 64;
-        csv_cell *cells = realloc(r->table->cells, capacity * sizeof *cells);
-        if (!cells) return false;
-        r->table->cells = cells;
-        r->capacity = capacity;
-    }
+    if (!grow_list(&r->table->cells, &r->capacity, r->count + 1, sizeof *r->table->cells))
+        return false;
     r->table->cells[r->count++] = cell;
     return true;
 }

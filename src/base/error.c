@@ -1,5 +1,7 @@
 #include "base/error.h"
 
+#include "base/grow.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,22 +37,10 @@ static void fill(glint_error *error, glint_status status, glint_severity severit
 
 static void append(glint_errors *errors, const glint_error *error)
 {
-    if (errors->count == MOST_KEPT) {
-        errors->error_count += error->severity == GLINT_ERROR;
-        return;
-    }
-    if (errors->count == errors->capacity) {
-        const size_t capacity = errors->capacity ? 2 * errors->capacity : 8;
-        glint_error *items = realloc(errors->items, capacity * sizeof *items);
-        if (!items) {
-            if (error->severity == GLINT_ERROR) errors->error_count++;
-            return;
-        }
-        errors->items = items;
-        errors->capacity = capacity;
-    }
-    errors->items[errors->count++] = *error;
-    if (error->severity == GLINT_ERROR) errors->error_count++;
+    errors->error_count += error->severity == GLINT_ERROR;
+    if (errors->count < MOST_KEPT &&
+        grow_list(&errors->items, &errors->capacity, errors->count + 1, sizeof *errors->items))
+        errors->items[errors->count++] = *error;
 }
 
 glint_status error_set(glint_error *error, glint_status status, place where, const char *format,

@@ -1,5 +1,7 @@
 #include "base/roots.h"
 
+#include "base/grow.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -102,13 +104,8 @@ void root_list_free(root_list *list)
 
 glint_status root_list_add(root_list *list, double x, glint_error *error)
 {
-    if (list->n == list->capacity) {
-        const size_t capacity = list->capacity ? 2 * list->capacity : 16;
-        double *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) return error_no_memory(error);
-        list->items = items;
-        list->capacity = capacity;
-    }
+    if (!grow_list(&list->items, &list->capacity, list->n + 1, sizeof *list->items))
+        return error_no_memory(error);
     list->items[list->n++] = x;
     return GLINT_OK;
 }

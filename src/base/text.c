@@ -1,5 +1,7 @@
 #include "base/text.h"
 
+#include "base/grow.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <stdarg.h>
@@ -28,19 +30,8 @@ bool text_reserve(text *t, size_t n)
         t->failed = true;
         return false;
     }
-    const size_t need = t->length + n + 1;
-    if (need <= t->capacity) return true;
-    size_t capacity = t->capacity ? t->capacity : 128;
-    while (capacity < need)
-        capacity *= 2;
-    char *data = realloc(t->data, capacity);
-    if (!data) {
-        t->failed = true;
-        return false;
-    }
-    t->data = data;
-    t->capacity = capacity;
-    return true;
+    t->failed = !grow_list(&t->data, &t->capacity, t->length + n + 1, 1);
+    return !t->failed;
 }
 
 void text_append(text *t, const char *bytes, size_t n)
@@ -80,6 +71,27 @@ void text_double(text *t, double value)
     if (!text_reserve(t, NUMBER_SIZE)) return;
     t->length += number_format(value, t->data + t->length);
     t->data[t->length] = '\0';
+}
+
+static number_text without_sign_of_zero(number_text number)
+{
+    const char *digits = number.text + strspn(number.text, "+-");
+    if (digits[strspn(digits, "0.")] == '\0') memmove(number.text, digits, strlen(digits) + 1);
+    return number;
+}
+
+number_text number_fixed(double value, int decimals)
+{
+    number_text out;
+    snprintf(out.text, sizeof out.text, "%.*f", decimals, value);
+    return without_sign_of_zero(out);
+}
+
+number_text number_signed(double value, int decimals)
+{
+    number_text out;
+    snprintf(out.text, sizeof out.text, "%+.*f", decimals, value);
+    return without_sign_of_zero(out);
 }
 
 char *string_copy(const char *s, size_t n)

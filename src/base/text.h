@@ -28,11 +28,20 @@ void text_printf(text *t, const char *format, ...) GLINT_PRINTF(2, 3);
 /* Appends a finite double with the fewest digits that read back exactly. */
 void text_double(text *t, double value);
 
-/* Room that number_format needs. */
-enum { NUMBER_SIZE = 32 };
+/* Room that number_format needs; the longest number that printf writes with 9 decimals: a sign, 309
+ * digits, a point, the decimals and the terminator. */
+enum { NUMBER_SIZE = 32, NUMBER_TEXT_SIZE = 324 };
 /* Writes the shortest decimal form that reads back as the same double; returns its length, not
  * counting a terminator (none is written). */
 size_t number_format(double value, char *out);
+/* A number for people, made to stand where printf has %s: `text` ends with the expression. */
+typedef struct number_text {
+    char text[NUMBER_TEXT_SIZE];
+} number_text;
+/* With that many decimals (0 to 9), as printf writes %.3f; what rounds to zero has no sign. */
+number_text number_fixed(double value, int decimals);
+/* The same with '+' before what is more than zero: for differences. */
+number_text number_signed(double value, int decimals);
 /* Reads one decimal number that fills the `n` bytes at `s` entirely (a leading '+' is accepted;
  * hex, inf and nan are not). False when there is none, or it overflows. */
 bool number_read(const char *s, size_t n, double *value);

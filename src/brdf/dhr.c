@@ -16,6 +16,7 @@
 #include "brdf/dhr.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/kronrod.h"
 
 #include <math.h>
@@ -158,13 +159,7 @@ static void integrate_cell(const integral *it, cell *c)
 
 static bool add_cell(cell_list *list, const cell *c)
 {
-    if (list->n == list->capacity) {
-        const int capacity = list->capacity ? 2 * list->capacity : 64;
-        cell *cells = realloc(list->cells, (size_t)capacity * sizeof *cells);
-        if (!cells) return false;
-        list->cells = cells;
-        list->capacity = capacity;
-    }
+    if (!grow_room(&list->cells, &list->capacity, list->n + 1L, sizeof *list->cells)) return false;
     list->cells[list->n++] = *c;
     return true;
 }

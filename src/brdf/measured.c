@@ -3,6 +3,7 @@
 
 #include "base/angle.h"
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/text.h"
 
 #include <limits.h>
@@ -346,15 +347,9 @@ static void check_unit(reader *r)
 
 static bool push(reader *r, const measured_point *point)
 {
-    if (r->out->n == r->capacity) {
-        const int capacity = r->capacity ? 2 * r->capacity : 256;
-        measured_point *points = realloc(r->out->points, (size_t)capacity * sizeof *points);
-        if (!points) {
-            fail(r, errors_add(r->errors, GLINT_INTERNAL, PLACE_NONE, "out of memory"));
-            return false;
-        }
-        r->out->points = points;
-        r->capacity = capacity;
+    if (!grow_room(&r->out->points, &r->capacity, r->out->n + 1L, sizeof *r->out->points)) {
+        fail(r, errors_no_memory(r->errors));
+        return false;
     }
     r->out->points[r->out->n++] = *point;
     return true;

@@ -2,6 +2,7 @@
 #include "brdf/table.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "brdf/fastmath.h"
 #include "brdf/lane.h"
 #include "brdf/models.h"
@@ -70,15 +71,9 @@ size_t table_data_add(table_data *data, const double *numbers, size_t n)
 {
     const size_t at = data->n;
     if (data->failed) return at;
-    if (at + n > data->capacity) {
-        const size_t capacity = 2 * (at + n);
-        double *grown = realloc(data->at, capacity * sizeof *grown);
-        if (!grown) {
-            data->failed = true;
-            return at;
-        }
-        data->at = grown;
-        data->capacity = capacity;
+    if (!grow_list(&data->at, &data->capacity, at + n, sizeof *data->at)) {
+        data->failed = true;
+        return at;
     }
     for (size_t k = 0; k < n; k++)
         data->at[at + k] = numbers ? numbers[k] : 0.0;

@@ -18,6 +18,7 @@
  *
  * Beyond the end of a scan its last value holds, and beyond the outermost lines those lines do. */
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/sorted.h"
 #include "brdf/monotone.h"
 #include "brdf/table_parts.h"
@@ -204,15 +205,7 @@ static int find_incidences(const measured *rows, double *angles)
 
 static void scan_add(scan *s, double angle, double log_f)
 {
-    if (s->n == s->capacity && !s->failed) {
-        const int capacity = s->capacity ? 2 * s->capacity : 64;
-        scan_node *nodes = realloc(s->nodes, (size_t)capacity * sizeof *nodes);
-        s->failed = !nodes;
-        if (nodes) {
-            s->nodes = nodes;
-            s->capacity = capacity;
-        }
-    }
+    s->failed = s->failed || !grow_room(&s->nodes, &s->capacity, s->n + 1L, sizeof *s->nodes);
     if (!s->failed) s->nodes[s->n++] = (scan_node){angle, log_f, 0.0};
 }
 

@@ -46,11 +46,7 @@ glint_status output_check(const glint_scenario *scenario, const char *path, glin
 
 glint_status output_check_plot(const char *table, const char *plot, glint_error *error)
 {
-    if (!plot) return GLINT_OK;
-    if (table && strcmp(table, plot) == 0)
-        return error_say(error, GLINT_ARGUMENT,
-                         "table and picture both go to '%s'; expected two files", plot);
-    return glint_plot_check(plot, error);
+    return plot ? glint_plot_check(plot, table, error) : GLINT_OK;
 }
 
 glint_status output_close_stdout(bool *reader_left, glint_error *error)

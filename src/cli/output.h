@@ -27,8 +27,8 @@ glint_status output_finish(output *o, glint_error *error);
  * GLINT_OUTPUT. */
 glint_status output_check(const glint_scenario *scenario, const char *path, glint_error *error);
 
-/* Whether a picture can be drawn, and goes to another file than the table. plot: NULL: none.
- * Errors: GLINT_ARGUMENT; those of glint_plot_check. */
+/* glint_plot_check where a picture is wanted. plot: NULL: none. Errors: those of glint_plot_check.
+ */
 glint_status output_check_plot(const char *table, const char *plot, glint_error *error);
 
 /* Flushes and closes stdout. *reader_left: as output_reader_left says before that. Errors:

@@ -101,6 +101,12 @@ static void print_utc(const glint_utc *utc)
     putc('Z', stderr);
 }
 
+/* A magnitude of which "%.3f" writes no "-0.000". */
+static double shown(double magnitude)
+{
+    return fabs(magnitude) < 0.0005 ? 0.0 : magnitude;
+}
+
 void report_summary(const glint_summary *s)
 {
     char sunlit[DURATION_SIZE], visible[DURATION_SIZE];
@@ -114,14 +120,14 @@ void report_summary(const glint_summary *s)
             (long long)s->bright_rows, s->bright_rows == 1 ? "has" : "have");
     if (s->bright_rows > 0) {
         fprintf(stderr, "magnitude  %s: minimum %.3f, median %.3f, maximum %.3f\n", s->band,
-                s->magnitude_min, s->magnitude_median, s->magnitude_max);
+                shown(s->magnitude_min), shown(s->magnitude_median), shown(s->magnitude_max));
         fprintf(stderr,
                 "brighter   than 6: %.1f %%, than 7: %.1f %% of the rows with a magnitude\n",
                 s->percent_brighter_6, s->percent_brighter_7);
     }
     if (s->has_utc) fprintf(stderr, "time       sunlit %s, visible %s\n", sunlit, visible);
     if (s->bright_rows > 0) {
-        fprintf(stderr, "brightest  %s %.3f at ", s->band, s->magnitude_min);
+        fprintf(stderr, "brightest  %s %.3f at ", s->band, shown(s->magnitude_min));
         if (s->has_utc) {
             print_utc(&s->brightest_utc);
             fprintf(stderr, ", ");

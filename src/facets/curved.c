@@ -2,6 +2,7 @@
 #include "facets/curved.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/vec.h"
 #include "facets/curved_parts.h"
 
@@ -23,14 +24,8 @@ typedef struct maker {
 static glint_status add_piece(maker *m, const curved_piece *piece)
 {
     curved_span *out = m->out;
-    const int n = m->n_pieces;
-    if (n == m->capacity) {
-        const int capacity = m->capacity ? 2 * m->capacity : 64;
-        curved_piece *pieces = realloc(out->pieces, (size_t)capacity * sizeof *pieces);
-        if (!pieces) return error_no_memory(m->error);
-        out->pieces = pieces;
-        m->capacity = capacity;
-    }
+    if (!grow_room(&out->pieces, &m->capacity, m->n_pieces + 1L, sizeof *out->pieces))
+        return error_no_memory(m->error);
     out->pieces[m->n_pieces++] = *piece;
     return GLINT_OK;
 }

@@ -1,8 +1,8 @@
+#include "base/grow.h"
 #include "base/vec.h"
 #include "facets/primitive.h"
 
 #include <assert.h>
-#include <limits.h>
 #include <stdlib.h>
 
 void facet_list_free(facet_list *list)
@@ -23,43 +23,17 @@ void facet_list_truncate(facet_list *list, int n, int n_vertices, int n_surfaces
     list->n_surfaces = n_surfaces;
 }
 
-/* The capacity for `needed` entries: at least doubled, so that appending costs O(1) on average. */
-static int grown(int capacity, int needed)
-{
-    const int twice = capacity > INT_MAX / 2 ? INT_MAX : 2 * capacity;
-    return twice > needed ? twice : needed;
-}
-
-/* Room for `capacity` vertices, and for their normals where there are any. */
-static glint_status reserve_vertices(facet_list *list, int capacity, glint_error *error)
-{
-    double(*vertices)[3] = realloc(list->vertices, (size_t)capacity * sizeof *vertices);
-    if (!vertices) return error_no_memory(error);
-    list->vertices = vertices;
-    if (list->normals) {
-        double(*normals)[3] = realloc(list->normals, (size_t)capacity * sizeof *normals);
-        if (!normals) return error_no_memory(error);
-        list->normals = normals;
-    }
-    list->vertex_capacity = capacity;
-    return GLINT_OK;
-}
-
 glint_status facet_list_reserve(facet_list *list, int n_facets, int n_vertices, glint_error *error)
 {
     assert(n_facets >= 0 && n_vertices >= 0);
-    if (n_facets > INT_MAX - list->n || n_vertices > INT_MAX - list->n_vertices)
+    const long n = (long)list->n + n_facets, n_corners = (long)list->n_vertices + n_vertices;
+    int of_normals = list->vertex_capacity;
+    if (!grow_room(&list->items, &list->capacity, n, sizeof *list->items) ||
+        (list->normals &&
+         !grow_room(&list->normals, &of_normals, n_corners, sizeof *list->normals)) ||
+        !grow_room(&list->vertices, &list->vertex_capacity, n_corners, sizeof *list->vertices))
         return error_no_memory(error);
-    if (list->n + n_facets > list->capacity) {
-        const int capacity = grown(list->capacity, list->n + n_facets);
-        facet *items = realloc(list->items, (size_t)capacity * sizeof *items);
-        if (!items) return error_no_memory(error);
-        list->items = items;
-        list->capacity = capacity;
-    }
-    if (list->n_vertices + n_vertices <= list->vertex_capacity) return GLINT_OK;
-    return reserve_vertices(list, grown(list->vertex_capacity, list->n_vertices + n_vertices),
-                            error);
+    return GLINT_OK;
 }
 
 /* Unit normal and area of a polygon (Newell's method: half the sum of the cross products of
@@ -105,14 +79,10 @@ glint_status facet_list_add(facet_list *list, const double (*vertices)[3], int n
 
 glint_status facet_list_reserve_surfaces(facet_list *list, int n, glint_error *error)
 {
-    if (n > INT_MAX - list->n_surfaces) return error_no_memory(error);
-    if (list->n_surfaces + n <= list->surface_capacity) return GLINT_OK;
-    const int capacity = grown(list->surface_capacity, list->n_surfaces + n);
-    curved_surface *surfaces = realloc(list->surfaces, (size_t)capacity * sizeof *surfaces);
-    if (!surfaces) return error_no_memory(error);
-    list->surfaces = surfaces;
-    list->surface_capacity = capacity;
-    return GLINT_OK;
+    return grow_room(&list->surfaces, &list->surface_capacity, (long)list->n_surfaces + n,
+                     sizeof *list->surfaces)
+               ? GLINT_OK
+               : error_no_memory(error);
 }
 
 glint_status facet_list_add_surface(facet_list *list, const curved_surface *surface, int *number,

@@ -1,9 +1,9 @@
 /* mesh_read.c: meshes as their files have them. */
+#include "base/grow.h"
 #include "base/vec.h"
 #include "facets/mesh.h"
 
 #include <ctype.h>
-#include <limits.h>
 #include <stdlib.h>
 
 void mesh_free(mesh *m)
@@ -21,39 +21,22 @@ void mesh_free(mesh *m)
     *m = (mesh){0};
 }
 
-/* Room for one more entry of that size; the array may move. */
-static void *room(void *array, size_t size, int n, int *capacity, glint_errors *errors)
-{
-    if (n < *capacity) return array;
-    const int more = *capacity > INT_MAX / 2 ? INT_MAX : *capacity ? 2 * *capacity : 64;
-    void *grown = realloc(array, (size_t)more * size);
-    if (grown)
-        *capacity = more;
-    else
-        errors_no_memory(errors);
-    return grown;
-}
-
 glint_status mesh_add_vertex(mesh *m, const double v[3], place where, glint_errors *errors)
 {
     if (m->n_vertices == MESH_MAX_VERTICES)
         return errors_add(errors, GLINT_INPUT, where, "more than %d vertices; expected fewer",
                           MESH_MAX_VERTICES);
-    double(*vertices)[3] =
-        room(m->vertices, sizeof *vertices, m->n_vertices, &m->vertex_capacity, errors);
-    if (!vertices) return GLINT_INTERNAL;
-    m->vertices = vertices;
-    copy3(v, vertices[m->n_vertices++]);
+    if (!grow_room(&m->vertices, &m->vertex_capacity, m->n_vertices + 1L, sizeof *m->vertices))
+        return errors_no_memory(errors);
+    copy3(v, m->vertices[m->n_vertices++]);
     return GLINT_OK;
 }
 
 glint_status mesh_add_normal(mesh *m, const double v[3], glint_errors *errors)
 {
-    double(*normals)[3] =
-        room(m->normals, sizeof *normals, m->n_normals, &m->normal_capacity, errors);
-    if (!normals) return GLINT_INTERNAL;
-    m->normals = normals;
-    copy3(v, normals[m->n_normals++]);
+    if (!grow_room(&m->normals, &m->normal_capacity, m->n_normals + 1L, sizeof *m->normals))
+        return errors_no_memory(errors);
+    copy3(v, m->normals[m->n_normals++]);
     return GLINT_OK;
 }
 
@@ -62,20 +45,18 @@ glint_status mesh_add_face(mesh *m, const mesh_face *face, place where, glint_er
     if (m->n_faces == MESH_MAX_FACES)
         return errors_add(errors, GLINT_INPUT, where, "more than %d triangles; expected fewer",
                           MESH_MAX_FACES);
-    mesh_face *faces = room(m->faces, sizeof *faces, m->n_faces, &m->face_capacity, errors);
-    if (!faces) return GLINT_INTERNAL;
-    m->faces = faces;
-    faces[m->n_faces++] = *face;
+    if (!grow_room(&m->faces, &m->face_capacity, m->n_faces + 1L, sizeof *m->faces))
+        return errors_no_memory(errors);
+    m->faces[m->n_faces++] = *face;
     m->labels[face->label].n_faces++;
     return GLINT_OK;
 }
 
 glint_status mesh_add_label(mesh *m, const mesh_label *label, glint_errors *errors)
 {
-    mesh_label *labels = room(m->labels, sizeof *labels, m->n_labels, &m->label_capacity, errors);
-    if (!labels) return GLINT_INTERNAL;
-    m->labels = labels;
-    labels[m->n_labels++] = *label;
+    if (!grow_room(&m->labels, &m->label_capacity, m->n_labels + 1L, sizeof *m->labels))
+        return errors_no_memory(errors);
+    m->labels[m->n_labels++] = *label;
     return GLINT_OK;
 }
 

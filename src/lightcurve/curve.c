@@ -7,7 +7,6 @@
 #include "lightcurve/facts.h"
 #include "lightcurve/tile.h"
 
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,12 +78,11 @@ static bool asks_for_height(const glint_scenario *s)
 glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint_curve **out,
                               glint_errors *errors)
 {
-    enum { MOST_THREADS = 1024 };
     *out = NULL;
-    if (threads < 0 || threads > MOST_THREADS)
-        return errors_add(errors, GLINT_ARGUMENT, PLACE_NONE,
-                          "%d threads asked for; expected 1 to %d, or 0 for all processors",
-                          threads, MOST_THREADS);
+    glint_error error = {0};
+    int n_threads;
+    glint_status status = tile_count_threads(threads, &n_threads, &error);
+    if (status) return errors_take(errors, &error, PLACE_NONE);
     if (!scenario->has_satellite)
         return errors_add(
             errors, GLINT_ARGUMENT, PLACE_NONE,
@@ -93,12 +91,11 @@ glint_status glint_curve_open(const glint_scenario *scenario, int threads, glint
     glint_curve *c = calloc(1, sizeof *c);
     if (!c) return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
     c->s = scenario;
-    c->n_threads = threads > 0 ? threads : omp_get_num_procs();
+    c->n_threads = n_threads;
     if (asks_for_height(scenario)) c->wanted |= GEOMETRY_HEIGHT;
     if (scenario->moon_columns) c->wanted |= GEOMETRY_MOON;
     if (scenario->has_telescope) c->wanted |= GEOMETRY_RATE;
-    glint_error error = {0};
-    glint_status status = column_set_make(scenario, &c->columns, &error);
+    status = column_set_make(scenario, &c->columns, &error);
     facts_of_run(scenario, &c->facts);
     if (!status) status = tile_plan_shadows(scenario, &c->plan, &error);
     if (!status)

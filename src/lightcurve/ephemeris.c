@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "base/vec.h"
 #include "lightcurve/facts.h"
+#include "lightcurve/tile.h"
 #include "lightcurve/watch.h"
 
 #include <math.h>
@@ -333,20 +334,18 @@ static bool make_workers(glint_ephemeris *e)
 glint_status glint_ephemeris_open(const glint_scenario *s, int threads, glint_ephemeris **out,
                                   glint_error *error)
 {
-    enum { MOST_THREADS = 1024 };
+    int n_threads;
     *out = NULL;
     if (s->has_geometry)
         return error_set(error, GLINT_INPUT, (place){s->documents[0]->path, 0, 0},
                          "[geometry] gives directions, so there are no positions; expected [time], "
                          "[observer] and [orbit]");
-    if (threads < 0 || threads > MOST_THREADS)
-        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
-                         "%d threads asked for; expected 1 to %d, or 0 for all processors", threads,
-                         MOST_THREADS);
+    const glint_status status = tile_count_threads(threads, &n_threads, error);
+    if (status) return status;
     glint_ephemeris *e = calloc(1, sizeof *e);
     if (!e) return error_no_memory(error);
     e->s = s;
-    e->n_threads = threads > 0 ? threads : omp_get_num_procs();
+    e->n_threads = n_threads;
     e->n_hinges = count_hinges(s);
     e->rows = calloc(BLOCK, sizeof *e->rows);
     e->hinge_rad = calloc((size_t)BLOCK * (size_t)e->n_hinges + 1, sizeof(double));

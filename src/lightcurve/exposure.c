@@ -1,6 +1,7 @@
 #include "lightcurve/exposure.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/kronrod.h"
 #include "base/vec.h"
 #include "brdf/sharpness.h"
@@ -177,13 +178,7 @@ static glint_status sample_halves(const exposure *x, double from_s, double lengt
 /* Makes room for more doubles in an owned array. */
 static glint_status grow(double **array, size_t needed, size_t *capacity, glint_error *error)
 {
-    if (needed <= *capacity) return GLINT_OK;
-    const size_t larger = 2 * needed;
-    double *grown = realloc(*array, larger * sizeof **array);
-    if (!grown) return error_no_memory(error);
-    *array = grown;
-    *capacity = larger;
-    return GLINT_OK;
+    return grow_list(array, capacity, needed, sizeof **array) ? GLINT_OK : error_no_memory(error);
 }
 
 static glint_status push(exposure_worker *e, double from_s, double length_s, glint_error *error)

@@ -1,6 +1,7 @@
 #include "lightcurve/facts.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/text.h"
 #include "brdf/table.h"
 #include "orbit/attitude_table.h"
@@ -16,15 +17,9 @@
 void fact_list_add(fact_list *list, const char *key, const char *format, ...)
 {
     if (list->failed) return;
-    if (list->n == list->capacity) {
-        const size_t capacity = list->capacity ? 2 * list->capacity : 32;
-        fact *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) {
-            list->failed = true;
-            return;
-        }
-        list->items = items;
-        list->capacity = capacity;
+    if (!grow_list(&list->items, &list->capacity, list->n + 1, sizeof *list->items)) {
+        list->failed = true;
+        return;
     }
     va_list args, again;
     va_start(args, format);

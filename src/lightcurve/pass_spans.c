@@ -12,6 +12,7 @@
  * same holds. Steps are then so short that the azimuth stays on one straight piece of the mask, or
  * passes its end by a small part of a piece. */
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/vec.h"
 #include "lightcurve/pass_parts.h"
 
@@ -240,13 +241,8 @@ static glint_status crossings_between(watch *w, const look *a, const look *b, ro
 
 static glint_status add_span(pass_span_list *list, pass_span span, glint_error *error)
 {
-    if (list->n == list->capacity) {
-        const size_t capacity = list->capacity ? 2 * list->capacity : 16;
-        pass_span *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) return error_no_memory(error);
-        list->items = items;
-        list->capacity = capacity;
-    }
+    if (!grow_list(&list->items, &list->capacity, list->n + 1, sizeof *list->items))
+        return error_no_memory(error);
     list->items[list->n++] = span;
     return GLINT_OK;
 }

@@ -1,11 +1,11 @@
 /* passes.c: passes with what happens in them: light and shadow, darkness, brightness, flashes. */
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/vec.h"
 #include "lightcurve/facts.h"
 #include "lightcurve/pass_parts.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,13 +33,8 @@ typedef struct pass_search {
 glint_status event_list_add(event_list *list, watch *w, glint_event_kind kind, double t_s,
                             glint_error *error)
 {
-    if (list->n == list->capacity) {
-        const size_t capacity = list->capacity ? 2 * list->capacity : 16;
-        glint_pass_event *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) return error_no_memory(error);
-        list->items = items;
-        list->capacity = capacity;
-    }
+    if (!grow_list(&list->items, &list->capacity, list->n + 1, sizeof *list->items))
+        return error_no_memory(error);
     sighting seen;
     const glint_status status = watch_at(w, t_s, &seen, error);
     if (status) return status;
@@ -216,16 +211,12 @@ glint_status glint_passes_check(const glint_scenario *s, glint_error *error)
     return GLINT_OK;
 }
 
-static glint_status check_call(const glint_scenario *s, const glint_pass_options *o,
+static glint_status check_call(const glint_scenario *s, const glint_pass_options *o, int *n_threads,
                                glint_error *error)
 {
-    enum { MOST_THREADS = 1024 };
-    const glint_status status = glint_passes_check(s, error);
+    glint_status status = glint_passes_check(s, error);
+    if (!status) status = tile_count_threads(o->threads, n_threads, error);
     if (status) return status;
-    if (o->threads < 0 || o->threads > MOST_THREADS)
-        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
-                         "%d threads asked for; expected 1 to %d, or 0 for all processors",
-                         o->threads, MOST_THREADS);
     const double angle_deg = o->flash_angle_rad / DEG, rounding = 1e-12;
     if (angle_deg != 0 && !(angle_deg >= GLINT_FLASH_ANGLE_MIN_DEG * (1 - rounding) &&
                             angle_deg <= GLINT_FLASH_ANGLE_MAX_DEG * (1 + rounding)))
@@ -269,7 +260,8 @@ glint_status glint_passes_find(const glint_scenario *s, const glint_pass_options
     static const double USUAL_FLASH_ANGLE = DEG;
     const glint_pass_options o = options ? *options : (glint_pass_options){0};
     *out = NULL;
-    glint_status status = check_call(s, &o, error);
+    int n_threads;
+    glint_status status = check_call(s, &o, &n_threads, error);
     if (status) return status;
     glint_passes *passes = calloc(1, sizeof *passes);
     if (!passes) return error_no_memory(error);
@@ -283,9 +275,7 @@ glint_status glint_passes_find(const glint_scenario *s, const glint_pass_options
                           .flash_angle =
                               o.flash_angle_rad > 0 ? o.flash_angle_rad : USUAL_FLASH_ANGLE};
     status =
-        passes->facts.failed
-            ? error_no_memory(error)
-            : find_all(&search, o.threads > 0 ? o.threads : omp_get_num_procs(), passes, error);
+        passes->facts.failed ? error_no_memory(error) : find_all(&search, n_threads, passes, error);
     if (status) {
         if (error && !error->file[0])
             snprintf(error->file, sizeof error->file, "%s", s->documents[0]->path);

@@ -4,7 +4,6 @@
 #include "lightcurve/exposure.h"
 #include "lightcurve/pass_parts.h"
 
-#include <omp.h>
 #include <stdlib.h>
 
 /* What one thread needs. */
@@ -93,17 +92,9 @@ glint_status predict_rows(const glint_scenario *s, const scenario_observer *who,
                           size_t n, int threads, predict_taker *take, void *context,
                           glint_error *error)
 {
-    enum { MOST_THREADS = 1024 };
-    if (threads < 0 || threads > MOST_THREADS)
-        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
-                         "%d threads asked for; expected 1 to %d, or 0 for all processors", threads,
-                         MOST_THREADS);
-    prediction p = {.s = s,
-                    .t_s = t_s,
-                    .n_threads = threads > 0 ? threads : omp_get_num_procs(),
-                    .take = take,
-                    .context = context};
-    glint_status status = tile_plan_shadows(s, &p.plan, error);
+    prediction p = {.s = s, .t_s = t_s, .take = take, .context = context};
+    glint_status status = tile_count_threads(threads, &p.n_threads, error);
+    if (!status) status = tile_plan_shadows(s, &p.plan, error);
     if (!status && !cut_tiles(&p, n)) status = error_no_memory(error);
     if (!status && p.plan)
         status = tile_fit_threads(s->satellite.model.n_facets, s->earth.wanted, p.n_threads,

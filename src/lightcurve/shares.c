@@ -1,5 +1,6 @@
 /* shares.c: what gives the light: a run of the satellite, and one of it with changes, row by row
  * beside each other. */
+#include "base/grow.h"
 #include "base/text.h"
 #include "lightcurve/facts.h"
 #include "scenario/scenario.h"
@@ -41,13 +42,7 @@ struct glint_shares {
 
 static bool numbers_add(numbers *list, double value)
 {
-    if (list->n == list->capacity) {
-        const size_t capacity = list->capacity ? 2 * list->capacity : 1024;
-        double *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) return false;
-        list->items = items;
-        list->capacity = capacity;
-    }
+    if (!grow_list(&list->items, &list->capacity, list->n + 1, sizeof *list->items)) return false;
     list->items[list->n++] = value;
     return true;
 }

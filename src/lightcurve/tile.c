@@ -30,6 +30,17 @@ glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_
     return status;
 }
 
+glint_status tile_count_threads(int wanted, int *n_threads, glint_error *error)
+{
+    enum { MOST = 1024 };
+    if (wanted < 0 || wanted > MOST)
+        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                         "%d threads asked for; expected 1 to %d, or 0 for all processors", wanted,
+                         MOST);
+    *n_threads = wanted > 0 ? wanted : omp_get_num_procs();
+    return GLINT_OK;
+}
+
 glint_status tile_fit_threads(int n_facets, bool has_earth, int wanted, int *n_threads,
                               glint_error *error)
 {

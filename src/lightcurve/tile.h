@@ -25,6 +25,10 @@ glint_status tile_plan_shadows(const glint_scenario *s, visibility **out, glint_
 /* Work space of all threads for shadows, bytes: more is neither needed nor to be had everywhere. */
 #define TILE_MOST_SHADOW_BYTES (4.0 * 1024 * 1024 * 1024)
 
+/* The number of threads that a caller's word stands for: 1 to 1024, or all processors for 0.
+ * Errors: GLINT_ARGUMENT (any other number). */
+glint_status tile_count_threads(int wanted, int *n_threads, glint_error *error);
+
 /* How many of `wanted` (1 or more) threads have room for the shadows of n_facets facets in
  * TILE_MOST_SHADOW_BYTES. Errors: GLINT_INPUT when not even one has. */
 glint_status tile_fit_threads(int n_facets, bool has_earth, int wanted, int *n_threads,

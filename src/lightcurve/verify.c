@@ -1,4 +1,5 @@
 /* verify.c: holds a run against the values and requirements that its scenario carries. */
+#include "base/grow.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "scenario/scenario.h"
@@ -193,13 +194,8 @@ static bool is_selected(const verification *v, const requirement *r, const size_
 
 static bool keep_excess(tally *t, double excess)
 {
-    if ((size_t)t->selected == t->capacity) {
-        const size_t capacity = t->capacity ? 2 * t->capacity : 1024;
-        double *items = realloc(t->excess, capacity * sizeof *items);
-        if (!items) return false;
-        t->excess = items;
-        t->capacity = capacity;
-    }
+    if (!grow_list(&t->excess, &t->capacity, (size_t)t->selected + 1, sizeof *t->excess))
+        return false;
     t->excess[t->selected] = excess;
     return true;
 }
@@ -309,7 +305,7 @@ static void report_requirement(const requirement *r, tally *t, text *out)
                 (long long)t->selected, 100 * r->for_fraction);
     const double margin = margin_of(r, t);
     if (margin < HUGE_VAL)
-        text_printf(out, "margin %+.3f mag\n", margin);
+        text_printf(out, "margin %s mag\n", number_signed(margin, 3).text);
     else
         text_add(out, "any brightness would do\n");
 }
@@ -339,10 +335,10 @@ static void judge_requirements(verification *v)
             snprintf(when, sizeof when, "t_s = %.9g", t->worst_row.t_s);
         deviate(v, r->where,
                 "%s is fainter than required in %.4g %% of %lld rows; expected %.4g %%; it breaks "
-                "its limit of %.3f most at %s%s%s with %.3f%s",
+                "its limit of %s most at %s%s%s with %s%s",
                 r->column, 100 * fraction, (long long)t->selected, 100 * r->for_fraction,
-                t->worst_limit, when, several ? " for " : "", several ? t->worst_row.observer : "",
-                t->worst, t->surface);
+                number_fixed(t->worst_limit, 3).text, when, several ? " for " : "",
+                several ? t->worst_row.observer : "", number_fixed(t->worst, 3).text, t->surface);
     }
 }
 

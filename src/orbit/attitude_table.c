@@ -1,6 +1,7 @@
 #include "orbit/attitude_table.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/sorted.h"
 #include "base/text.h"
 #include "base/vec.h"
@@ -48,32 +49,25 @@ static void no_memory(attitude_reading *r)
 void attitude_table_begin_span(attitude_reading *r, file_frame frame, place where)
 {
     attitude_table *t = r->table;
-    attitude_span *spans = realloc(t->spans, (size_t)(t->n_spans + 1) * sizeof *spans);
-    if (!spans) {
+    if (!grow_room(&t->spans, &t->span_capacity, t->n_spans + 1L, sizeof *t->spans)) {
         no_memory(r);
         return;
     }
-    t->spans = spans;
     where.file = t->path;
-    spans[t->n_spans++] = (attitude_span){.first = t->n, .where = where};
+    t->spans[t->n_spans++] = (attitude_span){.first = t->n, .where = where};
     r->frame = frame;
 }
 
 static bool make_room(attitude_reading *r)
 {
     attitude_table *t = r->table;
-    if (t->n < t->capacity) return true;
-    const long capacity = t->capacity ? 2 * t->capacity : 256;
-    double *t_s = realloc(t->t_s, (size_t)capacity * sizeof *t_s);
-    if (t_s) t->t_s = t_s;
-    double(*q)[4] = realloc(t->q, (size_t)capacity * sizeof *q);
-    if (q) t->q = q;
-    if (!t_s || !q) {
-        no_memory(r);
-        return false;
-    }
-    t->capacity = capacity;
-    return true;
+    const size_t needed = (size_t)t->n + 1;
+    size_t of_times = t->capacity;
+    if (grow_list(&t->t_s, &of_times, needed, sizeof *t->t_s) &&
+        grow_list(&t->q, &t->capacity, needed, sizeof *t->q))
+        return true;
+    no_memory(r);
+    return false;
 }
 
 /* The angle between two attitudes by the shortest way, rad. */

@@ -27,9 +27,10 @@ typedef struct attitude_table {
     const char *kind; /* "CCSDS AEM": for reports */
     double *t_s;      /* owned; n; TT s from the start, ascending within a span */
     double (*q)[4];   /* owned; n; unit: v_frame = q v_body q* */
-    long n, capacity;
+    long n;
+    size_t capacity;
     attitude_span *spans; /* owned; by time once the table is complete, which do not overlap */
-    int n_spans;
+    int n_spans, span_capacity;
 } attitude_table;
 
 /* Most that the norm of a quaternion may differ from 1: three decimals in a file leave 1e-3. */

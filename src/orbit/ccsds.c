@@ -1,5 +1,6 @@
 #include "orbit/ccsds_parts.h"
 
+#include "base/grow.h"
 #include "base/text.h"
 
 #include <ctype.h>
@@ -33,13 +34,8 @@ void ccsds_capitals(char *string)
 
 bool ccsds_append(ccsds_file *file, const ccsds_item *item)
 {
-    if (file->count == file->capacity) {
-        const size_t capacity = file->capacity ? 2 * file->capacity : 64;
-        ccsds_item *items = realloc(file->items, capacity * sizeof *items);
-        if (!items) return false;
-        file->items = items;
-        file->capacity = capacity;
-    }
+    if (!grow_list(&file->items, &file->capacity, file->count + 1, sizeof *file->items))
+        return false;
     file->items[file->count++] = *item;
     return true;
 }

@@ -1,4 +1,5 @@
 /* ccsds_xml.c: XML messages through expat. */
+#include "base/grow.h"
 #include "base/text.h"
 #include "orbit/ccsds_parts.h"
 
@@ -65,16 +66,10 @@ static size_t keep_name(scanner *s, const char *name)
 
 static void append(scanner *s, xml_item item)
 {
-    if (s->count == s->capacity) {
-        const size_t capacity = s->capacity ? 2 * s->capacity : 64;
-        xml_item *items = realloc(s->items, capacity * sizeof *items);
-        if (!items) {
-            s->failed = true;
-            XML_StopParser(s->parser, XML_FALSE);
-            return;
-        }
-        s->items = items;
-        s->capacity = capacity;
+    if (!grow_list(&s->items, &s->capacity, s->count + 1, sizeof *s->items)) {
+        s->failed = true;
+        XML_StopParser(s->parser, XML_FALSE);
+        return;
     }
     s->items[s->count++] = item;
 }

@@ -1,6 +1,7 @@
 #include "orbit/eop.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/text.h"
 
 #include <ctype.h>
@@ -183,13 +184,8 @@ static glint_status add_row(eop_table *t, const eop_line *line, const eop_record
         return errors_add(errors, GLINT_INPUT, column_of(line, 1),
                           "MJD %.10g follows MJD %d; expected the next day", r->mjd,
                           t->first_mjd + t->n - 1);
-    if (t->n == t->capacity) {
-        const int capacity = t->capacity ? 2 * t->capacity : 1024;
-        eop_row *rows = realloc(t->rows, (size_t)capacity * sizeof *rows);
-        if (!rows) return errors_add(errors, GLINT_INTERNAL, PLACE_NONE, "out of memory");
-        t->rows = rows;
-        t->capacity = capacity;
-    }
+    if (!grow_room(&t->rows, &t->capacity, t->n + 1L, sizeof *t->rows))
+        return errors_no_memory(errors);
     if (t->n == 0) t->first_mjd = (int)r->mjd;
     if (r->predicted && !t->predicted_mjd) t->predicted_mjd = (int)r->mjd;
     double tai_utc_s;

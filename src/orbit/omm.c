@@ -2,6 +2,7 @@
 
 #include "base/constants.h"
 #include "base/csv.h"
+#include "base/grow.h"
 #include "base/text.h"
 #include "orbit/ccsds.h"
 #include "orbit/clock.h"
@@ -48,13 +49,8 @@ int omm_key_of(const char *keyword)
 
 omm_record *omm_add_record(omm_file *file)
 {
-    if (file->n == file->capacity) {
-        const size_t capacity = file->capacity ? 2 * file->capacity : 16;
-        omm_record *records = realloc(file->records, capacity * sizeof *records);
-        if (!records) return NULL;
-        file->records = records;
-        file->capacity = capacity;
-    }
+    if (!grow_list(&file->records, &file->capacity, file->n + 1, sizeof *file->records))
+        return NULL;
     omm_record *record = &file->records[file->n++];
     *record = (omm_record){0};
     return record;

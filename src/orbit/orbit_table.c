@@ -1,6 +1,7 @@
 #include "orbit/orbit_table.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/sorted.h"
 #include "base/text.h"
 #include "base/vec.h"
@@ -36,11 +37,11 @@ void orbit_table_free(orbit_table *table)
 
 table_segment *orbit_table_add(orbit_table *table)
 {
-    table_segment *segments = realloc(table->segments, (table->n + 1) * sizeof *segments);
-    if (!segments) return NULL;
-    table->segments = segments;
-    segments[table->n] = (table_segment){0};
-    return &segments[table->n++];
+    if (!grow_list(&table->segments, &table->capacity, table->n + 1, sizeof *table->segments))
+        return NULL;
+    table_segment *segment = &table->segments[table->n++];
+    *segment = (table_segment){0};
+    return segment;
 }
 
 double orbit_table_seconds(const orbit_table *table, const double tt_jd[2])
@@ -51,13 +52,8 @@ double orbit_table_seconds(const orbit_table *table, const double tt_jd[2])
 bool orbit_table_add_node(orbit_table *table, table_segment *segment, const double tt_jd[2],
                           const double r_m[3], const double v_m_s[3])
 {
-    if (segment->n == segment->capacity) {
-        const size_t capacity = segment->capacity ? 2 * segment->capacity : 64;
-        table_node *nodes = realloc(segment->nodes, capacity * sizeof *nodes);
-        if (!nodes) return false;
-        segment->nodes = nodes;
-        segment->capacity = capacity;
-    }
+    if (!grow_list(&segment->nodes, &segment->capacity, segment->n + 1, sizeof *segment->nodes))
+        return false;
     if (table->n == 1 && segment->n == 0) memcpy(table->reference_jd, tt_jd, 2 * sizeof *tt_jd);
     table_node *node = &segment->nodes[segment->n++];
     node->t_s = orbit_table_seconds(table, tt_jd);

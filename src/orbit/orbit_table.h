@@ -47,7 +47,7 @@ typedef struct orbit_table {
     char *path;                                        /* owned */
     double reference_jd[2];                            /* TT */
     table_segment *segments;                           /* owned; in order of time */
-    size_t n;
+    size_t n, capacity;
 } orbit_table;
 
 /* An empty table; NULL when memory is out. path: copied. */
@@ -68,15 +68,16 @@ bool table_frame_find(const char *name, table_frame *out, bool *eme2000);
 /* Turns a node from EME2000 to GCRS by the frame bias of IAU 2006 (23 mas). */
 void table_node_from_eme2000(double r_m[3], double v_m_s[3]);
 
-/* Checks that a place (m) is outside the Earth and no farther than 1e7 km, and a velocity (m/s) below
- * 1000 km/s: others are mistakes, mostly of units. unit: the one of the file, "km". Errors:
+/* Checks that a place (m) is outside the Earth and no farther than 1e7 km, and a velocity (m/s)
+ * below 1000 km/s: others are mistakes, mostly of units. unit: the one of the file, "km". Errors:
  * GLINT_INPUT. */
 glint_status table_state_check(const double r_m[3], const double v_m_s[3], const char *unit,
                                place where, glint_error *error);
 
 /* Ends the making of a table: checks that there are segments of at least two nodes each, 1 ms to
- * 1e5 s apart (which keeps polynomials finite), in order and without overlap of their use; lowers degrees that a segment has too few nodes
- * for, with a warning. Errors: GLINT_INPUT, all of them. */
+ * 1e5 s apart (which keeps polynomials finite), in order and without overlap of their use; lowers
+ * degrees that a segment has too few nodes for, with a warning. Errors: GLINT_INPUT, all of them.
+ */
 glint_status orbit_table_finish(orbit_table *table, glint_errors *errors);
 
 /* First and last moment that the table answers for, TT s from its reference; there may be gaps. */

@@ -1,6 +1,7 @@
 #include "orbit/stk.h"
 
 #include "base/constants.h"
+#include "base/grow.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "orbit/clock.h"
@@ -42,7 +43,7 @@ typedef struct stk_reading {
     long announced; /* NumberOfEphemerisPoints; -1 where not said */
     long n;
     double *boundaries_s; /* owned; SegmentBoundaryTimes */
-    size_t n_boundaries;
+    size_t n_boundaries, boundary_capacity;
     double last_s; /* time of the last row */
 } stk_reading;
 
@@ -232,12 +233,11 @@ static void take_boundary(stk_reading *s)
         if (!s->worst) fail(s, s->line, "expected one time of a boundary on this line");
         return;
     }
-    double *more = realloc(s->boundaries_s, (s->n_boundaries + 1) * sizeof *more);
-    if (!more) {
+    if (!grow_list(&s->boundaries_s, &s->boundary_capacity, s->n_boundaries + 1,
+                   sizeof *s->boundaries_s)) {
         no_memory(s);
         return;
     }
-    s->boundaries_s = more;
     s->boundaries_s[s->n_boundaries++] = t_s;
 }
 

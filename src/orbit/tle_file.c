@@ -1,4 +1,5 @@
 /* tle_file.c: the element sets of one satellite from a file of two-line sets. */
+#include "base/grow.h"
 #include "base/text.h"
 #include "orbit/element_sets.h"
 
@@ -56,15 +57,11 @@ static slice name_in(slice line)
 
 static bool append(set_list *list, const two_lines *lines, const set_entry *entry)
 {
-    if (list->count == list->capacity) {
-        const size_t capacity = list->capacity ? 2 * list->capacity : 64;
-        two_lines *more_lines = realloc(list->lines, capacity * sizeof *more_lines);
-        if (more_lines) list->lines = more_lines;
-        set_entry *more_entries = realloc(list->entries, capacity * sizeof *more_entries);
-        if (more_entries) list->entries = more_entries;
-        if (!more_lines || !more_entries) return false;
-        list->capacity = capacity;
-    }
+    const size_t needed = list->count + 1;
+    size_t of_lines = list->capacity;
+    if (!grow_list(&list->lines, &of_lines, needed, sizeof *list->lines) ||
+        !grow_list(&list->entries, &list->capacity, needed, sizeof *list->entries))
+        return false;
     list->lines[list->count] = *lines;
     list->entries[list->count++] = *entry;
     return true;

@@ -206,8 +206,9 @@ static void write_title(const track_picture *p, text *t)
     text numbers = {0};
     text_printf(&numbers, "%lld observation%s, rms %.3f mag", (long long)s->compared,
                 s->compared == 1 ? "" : "s", s->rms);
-    if (s->has_r) text_printf(&numbers, ", R %.3f", s->r);
-    if (s->fitted) text_printf(&numbers, ", zero point %+.3f mag", s->zero_point);
+    if (s->has_r) text_printf(&numbers, ", R %s", number_fixed(s->r, 3).text);
+    if (s->fitted)
+        text_printf(&numbers, ", zero point %s mag", number_signed(s->zero_point, 3).text);
     text_add(t, "set multiplot title ");
     if (s->title[0]) {
         plot_quote(t, s->title);

@@ -85,24 +85,27 @@ static void people_numbers(const glint_comparison_summary *s, text *t)
                 (long long)s->compared, (long long)s->observations, s->band, s->kind);
     people_left_out(s, t);
     if (s->compared > 0) {
-        text_printf(t, "mean %+.4f, scatter %.4f, rms %.4f, largest %+.4f mag\n", s->mean,
-                    s->scatter, s->rms, s->largest);
+        text_printf(t, "mean %s, scatter %.4f, rms %.4f, largest %s mag\n",
+                    number_signed(s->mean, 4).text, s->scatter, s->rms,
+                    number_signed(s->largest, 4).text);
         if (s->fitted)
-            text_printf(t, "after a zero point of %+.4f +- %.4f mag, which was fitted\n",
-                        s->zero_point, s->zero_point_sigma);
+            text_printf(t, "after a zero point of %s +- %.4f mag, which was fitted\n",
+                        number_signed(s->zero_point, 4).text, s->zero_point_sigma);
     }
-    if (s->has_r) text_printf(t, "Pearson R %.4f\n", s->r);
+    if (s->has_r) text_printf(t, "Pearson R %s\n", number_fixed(s->r, 4).text);
     if (s->with_sigma > 0)
         text_printf(t, "chi^2 %.4f of %lld rows, %lld degrees of freedom\n", s->chi2,
                     (long long)s->with_sigma, (long long)s->freedom);
     if (s->compared > 0 && s->has_chi2_relative)
         text_printf(t, "mean square over observed magnitude %.4f mag\n", s->chi2_relative);
     if (s->with_range > 0)
-        text_printf(t, "range, observed less predicted: mean %+.3f, largest %+.3f km\n",
-                    s->range_mean_m * 1e-3, s->range_most_m * 1e-3);
+        text_printf(t, "range, observed less predicted: mean %s, largest %s km\n",
+                    number_signed(s->range_mean_m * 1e-3, 3).text,
+                    number_signed(s->range_most_m * 1e-3, 3).text);
     if (s->with_phase > 0)
-        text_printf(t, "phase angle, observed less predicted: mean %+.3f, largest %+.3f deg\n",
-                    s->phase_mean_rad * DEGREES, s->phase_most_rad * DEGREES);
+        text_printf(t, "phase angle, observed less predicted: mean %s, largest %s deg\n",
+                    number_signed(s->phase_mean_rad * DEGREES, 3).text,
+                    number_signed(s->phase_most_rad * DEGREES, 3).text);
 }
 
 static void write_people(const glint_comparison *c, const glint_comparison_summary *s, text *t)
@@ -113,13 +116,14 @@ static void write_people(const glint_comparison *c, const glint_comparison_summa
                 "predicted", "residual", "range km", "phase", "");
     for (size_t k = 0; glint_comparison_get(c, k, &o); k++) {
         add_utc(t, &o.utc);
-        text_printf(t, " %8.3f", o.observed);
+        text_printf(t, " %8s", number_fixed(o.observed, 3).text);
         if (o.sigma > 0)
             text_printf(t, " %7.3f", o.sigma);
         else
             text_printf(t, " %7s", "-");
         if (o.state == GLINT_COMPARED)
-            text_printf(t, " %9.3f %+9.3f", o.predicted + s->zero_point, o.residual);
+            text_printf(t, " %9s %9s", number_fixed(o.predicted + s->zero_point, 3).text,
+                        number_signed(o.residual, 3).text);
         else
             text_printf(t, " %9s %9s", "-", "-");
         text_printf(t, " %10.3f %7.2f%s%s\n", o.range_m * 1e-3, o.phase_rad * DEGREES,

@@ -229,6 +229,39 @@ void out_file_abandon(out_file *file)
     release(file);
 }
 
+/* The one name, from malloc, that all spellings of a path lead to; of a file that does not exist
+ * its folder must. NULL on error. */
+static char *only_name(const char *path)
+{
+    char *name = realpath(path, NULL);
+    if (name || errno != ENOENT) return name;
+    char *last = name_behind_links(path), *folder = last ? folder_of(last) : NULL;
+    char *real_folder = folder ? realpath(folder, NULL) : NULL;
+    text t = {0};
+    if (real_folder) {
+        const char *slash = strrchr(last, '/');
+        text_printf(&t, "%s/%s", real_folder, slash ? slash + 1 : last);
+        if (t.failed) text_free(&t);
+    }
+    free(real_folder);
+    free(folder);
+    free(last);
+    return t.data;
+}
+
+glint_status out_file_check_two(const char *table, const char *picture, glint_error *error)
+{
+    if (!table || !picture) return GLINT_OK;
+    char *a = only_name(table), *b = only_name(picture);
+    /* a name that leads nowhere is refused where it is opened */
+    const bool same = string_equal(a && b ? a : table, a && b ? b : picture);
+    free(a);
+    free(b);
+    if (!same) return GLINT_OK;
+    return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
+                     "table and picture both go to '%s'; expected two files", picture);
+}
+
 glint_status out_file_is_input(const char *path, glint_error *error)
 {
     return error_set(error, GLINT_OUTPUT, (place){path, 0, 0},

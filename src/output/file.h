@@ -16,6 +16,10 @@ glint_status out_file_write(out_file *file, const char *bytes, size_t n, glint_e
 /* Syncs, puts the file in its place and closes; on error nothing is left behind. Frees `file`
  * either way. Errors: GLINT_OUTPUT. */
 glint_status out_file_commit(out_file *file, glint_error *error);
+/* Refuses a table and a picture that go to one file, under whatever names: spelled in another way
+ * or through links, also where there is nothing yet. table, picture: NULL: none, or standard
+ * output. Errors: GLINT_ARGUMENT. */
+glint_status out_file_check_two(const char *table, const char *picture, glint_error *error);
 /* The error that `path` is a file which the scenario is read from. */
 glint_status out_file_is_input(const char *path, glint_error *error);
 /* Closes and leaves nothing behind. NULL is fine. */

@@ -3,6 +3,7 @@
 #include "base/angle.h"
 #include "base/constants.h"
 #include "base/csv.h"
+#include "base/grow.h"
 #include "base/text.h"
 
 #include <math.h>
@@ -17,13 +18,8 @@ void view_points_free(view_points *points)
 
 static bool add_point(view_points *points, const view_point *point)
 {
-    if (points->n == points->capacity) {
-        const size_t capacity = points->capacity ? 2 * points->capacity : 1024;
-        view_point *items = realloc(points->items, capacity * sizeof *items);
-        if (!items) return false;
-        points->items = items;
-        points->capacity = capacity;
-    }
+    if (!grow_list(&points->items, &points->capacity, points->n + 1, sizeof *points->items))
+        return false;
     points->items[points->n++] = *point;
     return true;
 }

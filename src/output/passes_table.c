@@ -92,19 +92,19 @@ static void add_line(text *t, const listed_pass *l)
     add_end(t, event_of(p, GLINT_RISE), "up already");
     text_add(t, "  ");
     add_clock(t, &top->utc);
-    text_printf(t, " %5.1f %3s", top->elevation_rad * DEGREES,
+    text_printf(t, " %5s %3s", number_fixed(top->elevation_rad * DEGREES, 1).text,
                 glint_compass_point(top->azimuth_rad));
     add_end(t, event_of(p, GLINT_SET), "still up");
     text_add(t, "  ");
     if (best) {
         add_clock(t, &best->utc);
-        text_printf(t, " %6.2f", best->magnitude);
+        text_printf(t, " %6s", number_fixed(best->magnitude, 2).text);
     } else {
         text_printf(t, "%-10s %6s", "-", "-");
     }
-    text_printf(t, "  %7.0f  %7.0f  %6.1f  %s%s%s\n", p->sunlit_s, p->dark_site_s,
-                top->sun_elevation_rad * DEGREES, glint_passes_satellite(l->of),
-                p->site[0] ? ", " : "", p->site);
+    text_printf(t, "  %7.0f  %7.0f  %6s  %s%s%s\n", p->sunlit_s, p->dark_site_s,
+                number_fixed(top->sun_elevation_rad * DEGREES, 1).text,
+                glint_passes_satellite(l->of), p->site[0] ? ", " : "", p->site);
 }
 
 /* The time of a note, with its date where that is not the one at the head of the pass. */
@@ -148,14 +148,14 @@ static void add_note(text *t, const glint_passes *of, const glint_pass *pass,
         word = LATE_WORDS[e->kind];
     if (!word) return;
     add_note_time(t, pass, &e->utc);
-    text_printf(t, " %3s %5.1f  %s", glint_compass_point(e->azimuth_rad),
-                e->elevation_rad * DEGREES, word);
+    text_printf(t, " %3s %5s  %s", glint_compass_point(e->azimuth_rad),
+                number_fixed(e->elevation_rad * DEGREES, 1).text, word);
     if (e->kind == GLINT_FLASH) {
         text_printf(t, " of %s (%.3g, %.3g, %.3g) for %.3g s, %.2f deg off", e->component,
                     e->normal[0], e->normal[1], e->normal[2], e->to_s - e->from_s,
                     e->mirror_angle_rad * DEGREES);
         if (e->has_magnitude)
-            text_printf(t, ", %s %.2f", glint_passes_band(of), e->magnitude);
+            text_printf(t, ", %s %s", glint_passes_band(of), number_fixed(e->magnitude, 2).text);
         else
             text_add(t, ", hidden");
     }

@@ -107,10 +107,11 @@ glint_status plot_open(const char *path, plot **out, glint_error *error)
     return status;
 }
 
-glint_status glint_plot_check(const char *path, glint_error *error)
+glint_status glint_plot_check(const char *path, const char *table, glint_error *error)
 {
     plot *p;
-    const glint_status status = plot_open(path, &p, error);
+    glint_status status = out_file_check_two(table, path, error);
+    if (!status) status = plot_open(path, &p, error);
     if (!status) plot_abandon(p);
     return status;
 }

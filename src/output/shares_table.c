@@ -112,8 +112,10 @@ static void people_whole(const glint_shares *shares, bool changed, text *t)
     text_printf(t, "light in %lld of %lld rows", (long long)whole.bright_rows,
                 (long long)whole.rows);
     if (whole.bright_rows > 0) {
-        text_printf(t, "; %s: mean %.3f, median %.3f, brightest %.3f at ", whole.band,
-                    whole.magnitude_mean, whole.magnitude_median, whole.magnitude_peak);
+        text_printf(t, "; %s: mean %s, median %s, brightest %s at ", whole.band,
+                    number_fixed(whole.magnitude_mean, 3).text,
+                    number_fixed(whole.magnitude_median, 3).text,
+                    number_fixed(whole.magnitude_peak, 3).text);
         add_moment(t, whole);
     }
     text_char(t, '\n');
@@ -125,10 +127,13 @@ static void people_difference(const glint_shares *shares, text *t)
     if (!glint_shares_difference(shares, &d)) return;
     if (d.rows > 0) {
         text_printf(t,
-                    "changed less given, mag: mean %+.3f, median %+.3f, least %+.3f, most %+.3f; "
-                    "brightest row %+.3f",
-                    d.mean, d.median, d.min, d.max, d.peak);
-        if (d.has_peak) text_printf(t, "; at the brightest moment %+.3f", d.at_peak);
+                    "changed less given, mag: mean %s, median %s, least %s, most %s; "
+                    "brightest row %s",
+                    number_signed(d.mean, 3).text, number_signed(d.median, 3).text,
+                    number_signed(d.min, 3).text, number_signed(d.max, 3).text,
+                    number_signed(d.peak, 3).text);
+        if (d.has_peak)
+            text_printf(t, "; at the brightest moment %s", number_signed(d.at_peak, 3).text);
         text_char(t, '\n');
     }
     if (d.lost > 0)
@@ -152,8 +157,9 @@ static void people_numbers(const glint_share *share, bool there, text *t)
     else if (share->rows == 0)
         text_printf(t, " %8.4f %8.4f %7.1f%% %8s %9.4g", 0.0, 0.0, 0.0, "-", share->area_m2);
     else
-        text_printf(t, " %8.4f %8.4f %7.1f%% %8.3f %9.4g", share->share_mean, share->share_peak,
-                    100 * share->dominant_fraction, share->magnitude_mean, share->area_m2);
+        text_printf(t, " %8.4f %8.4f %7.1f%% %8s %9.4g", share->share_mean, share->share_peak,
+                    100 * share->dominant_fraction, number_fixed(share->magnitude_mean, 3).text,
+                    share->area_m2);
 }
 
 static void people_row(const share_pair *pair, bool with_changes, int width, text *t)
@@ -165,7 +171,7 @@ static void people_row(const share_pair *pair, bool with_changes, int width, tex
         text_add(t, "  |");
         people_numbers(b, pair->after, t);
         if (pair->before && pair->after && a->rows > 0 && b->rows > 0)
-            text_printf(t, " %+8.3f", b->magnitude_mean - a->magnitude_mean);
+            text_printf(t, " %8s", number_signed(b->magnitude_mean - a->magnitude_mean, 3).text);
         if (pair->before && pair->after && !string_equal(a->material, b->material))
             text_printf(t, "  %s", b->material);
     }

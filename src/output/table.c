@@ -1,4 +1,5 @@
 /* table.c: a light curve as a CSV table with an ECSV header. */
+#include "base/grow.h"
 #include "base/text.h"
 #include "output/curve_plot.h"
 #include "output/ecsv.h"
@@ -62,13 +63,10 @@ static void chunks_free(chunk_texts *chunks)
 
 static bool chunks_reserve(chunk_texts *chunks, size_t n)
 {
-    if (n > chunks->capacity) {
-        text *items = realloc(chunks->items, n * sizeof *items);
-        if (!items) return false;
-        memset(items + chunks->capacity, 0, (n - chunks->capacity) * sizeof *items);
-        chunks->items = items;
-        chunks->capacity = n;
-    }
+    const size_t had = chunks->capacity;
+    if (!grow_list(&chunks->items, &chunks->capacity, n, sizeof *chunks->items)) return false;
+    for (size_t k = had; k < chunks->capacity; k++)
+        chunks->items[k] = (text){0};
     chunks->n = n;
     return true;
 }
@@ -121,9 +119,8 @@ static glint_status sinks_open(const glint_curve *curve, const char *path, const
     *out = (sinks){0};
     if (path && glint_curve_reads(curve, path)) return out_file_is_input(path, error);
     if (picture && glint_curve_reads(curve, picture)) return out_file_is_input(picture, error);
-    if (path && picture && string_equal(path, picture))
-        return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
-                         "table and picture both go to '%s'; expected two files", path);
+    const glint_status status = out_file_check_two(path, picture, error);
+    if (status) return status;
     if (picture && glint_curve_observers(curve) > 1)
         return error_set(error, GLINT_ARGUMENT, PLACE_NONE,
                          "a picture shows the curve of one observer, and there are %zu; expected a "
@@ -135,8 +132,8 @@ static glint_status sinks_open(const glint_curve *curve, const char *path, const
                                  n > 0 && string_equal(columns[0].name, "utc"));
     if (!out->summary) return error_no_memory(error);
     if (picture) {
-        const glint_status status = plot_open(picture, &out->plot, error);
-        if (status) return status;
+        const glint_status opened = plot_open(picture, &out->plot, error);
+        if (opened) return opened;
         out->curve_plot = curve_plot_start(curve);
         if (!out->curve_plot) return error_no_memory(error);
     }

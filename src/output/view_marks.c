@@ -1,6 +1,7 @@
 /* view_marks.c: what stands around the satellite in its picture: the head, a scale bar, directions.
  */
 #include "base/constants.h"
+#include "base/text.h"
 #include "output/view_sketch.h"
 
 #include <math.h>
@@ -27,7 +28,8 @@ static void write_moment(const sketch *s, char *out, size_t size)
         n = snprintf(out, size, "row %lld, t = %g s", (long long)scene->row, scene->t_s);
     }
     if (scene->has_magnitude)
-        n += snprintf(out + n, size - (size_t)n, ",  %s = %.2f mag", scene->band, scene->magnitude);
+        n += snprintf(out + n, size - (size_t)n, ",  %s = %s mag", scene->band,
+                      number_fixed(scene->magnitude, 2).text);
     else if (scene->below_horizon)
         n += snprintf(out + n, size - (size_t)n, ",  below the horizon");
     else if (scene->sunlit_fraction <= 0)

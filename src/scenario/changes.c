@@ -1,6 +1,7 @@
 /* changes.c: telling the surfaces of a satellite apart, and putting materials in place of others or
  * taking components away, on the facets before they are compiled: what comes out is what edited
  * files would give. */
+#include "base/grow.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "scenario/reading.h"
@@ -87,13 +88,7 @@ static ways *find_pair(way_table *t, int component, int material)
     for (int k = t->n - 1; k >= 0; k--) /* most often the last */
         if (t->items[k].component == component && t->items[k].material == material)
             return &t->items[k];
-    if (t->n == t->capacity) {
-        const int capacity = t->capacity ? 2 * t->capacity : 8;
-        ways *items = realloc(t->items, (size_t)capacity * sizeof *items);
-        if (!items) return NULL;
-        t->items = items;
-        t->capacity = capacity;
-    }
+    if (!grow_room(&t->items, &t->capacity, t->n + 1L, sizeof *t->items)) return NULL;
     t->items[t->n] = (ways){.component = component, .material = material};
     return &t->items[t->n++];
 }
@@ -134,11 +129,8 @@ static void write_facing(const ways *pair, int k, text *out)
                         "xyz"[i]);
             return;
         }
-    const double turned[3] = {w->facing[0] + 0.0, w->facing[1] + 0.0, w->facing[2] + 0.0};
-    text_char(out, '(');
-    for (int i = 0; i < 3; i++) /* no "-0.000" */
-        text_printf(out, "%s%.3f", i ? " " : "", fabs(turned[i]) < 5e-4 ? 0.0 : turned[i]);
-    text_char(out, ')');
+    text_printf(out, "(%s %s %s)", number_fixed(w->facing[0], 3).text,
+                number_fixed(w->facing[1], 3).text, number_fixed(w->facing[2], 3).text);
 }
 
 /* Names the surfaces of one pair. */

@@ -12,11 +12,11 @@ typedef struct reading {
     const char *const *overrides; /* borrowed */
     size_t n_overrides;
     glint_errors *errors;
-    glint_status status;   /* the worst so far */
-    bool orbit_only;       /* [attitude] and the satellite may be absent */
-    bool by_surface;       /* surfaces are told apart */
+    glint_status status;          /* the worst so far */
+    bool orbit_only;              /* [attitude] and the satellite may be absent */
+    bool by_surface;              /* surfaces are told apart */
     const glint_changes *changes; /* of the satellite; NULL: none */
-    measured_cache tables; /* files of measured BRDFs; ended where the materials end */
+    measured_cache tables;        /* files of measured BRDFs; ended where the materials end */
 } reading;
 
 /* Keeps the worst of the statuses. */
@@ -25,9 +25,7 @@ void reading_note(reading *rd, glint_status status);
 void reading_done(reading *rd, reader *r);
 /* Memory is out: notes it. */
 void reading_no_memory(reading *rd);
-/* Opens a document that the scenario keeps; NULL on error (noted). model: apply the overrides that
- * belong to a model; else those that do not (all, when the model's tables stand in the scenario).
- */
+/* Opens a document that the scenario keeps; NULL on error (noted). */
 toml_document *reading_open(reading *rd, const char *path, place asked_from);
 /* Whether a "materials.NAME...=value" is for a material of a file in materials_from: the document
  * names such files and has no material of that name itself. */
@@ -46,6 +44,10 @@ moment_text reading_moment(const glint_scenario *s, double t_s);
  */
 bool read_direction(reader *r, const char *key, bool required, direction *out);
 
+/* [corrections], whose file of Earth orientation [time] then needs. */
+void read_corrections(reading *rd, reader *root);
+void read_time(reading *rd, reader *root);
+void read_photometry(reading *rd, reader *root);
 /* The table of an orbit; name: "[orbit]", for messages. */
 void read_orbit(reading *rd, const toml_node *table, const char *name, scenario_orbit *out);
 void scenario_orbit_free(scenario_orbit *o);
