@@ -434,74 +434,34 @@ static bool do_task(subtraction *s)
 
 /* --- covers of which few meet --- */
 
-/* From so many covers on, it is found out which of them meet. */
-enum { WORTH_RELATING = 20 };
-/* Where more pairs meet than so many for each cover, division is faster; and where the search comes
- * to so many pairs for each, it ends. */
-enum { MANY_PAIRS = 3, MOST_TRIES = 64 };
-
-/* Covers wider than this part of the polygon are tried with all others. */
-static const double WIDE = 0.125;
-
-static double width_of(const subtraction *s, int cover)
-{
-    const box2 *box = &s->covers->items[cover].box;
-    return box->hi_x - box->lo_x;
-}
-
-/* Puts the covers in work.lists in order, by the method of sort_points: first those that are wider
- * than `wide`, whose number it returns, then the others by their lowest x. */
-static int sort_covers(const subtraction *s, int n, double wide)
-{
-    int *list = s->work->lists, n_wide = 0;
-    for (int k = 0; k < n; k++) {
-        const int own = list[k];
-        if (width_of(s, own) <= wide) continue;
-        list[k] = list[n_wide];
-        list[n_wide++] = own;
-    }
-    for (int gap = (n - n_wide) / 2; gap > 0; gap /= 2)
-        for (int k = n_wide + gap; k < n; k++) {
-            const int own = list[k];
-            const double lo_x = s->covers->items[own].box.lo_x;
-            int at = k;
-            for (; at >= n_wide + gap && s->covers->items[list[at - gap]].box.lo_x > lo_x;
-                 at -= gap)
-                list[at] = list[at - gap];
-            list[at] = own;
-        }
-    return n_wide;
-}
+/* Of so many covers it is found out which of them meet: of fewer or more, division is faster. */
+enum { WORTH_RELATING = 20, MOST_RELATED = 600 };
+/* So it is where more pairs meet than so many for each cover. */
+enum { MANY_PAIRS = 3 };
 
 /* Lists, behind the first n_list covers in work.lists, those that share area with each of them and
  * stand before it: of number k they end before work.lists[work.ends[k]]. *few: whether these are
  * few. */
-static bool list_meeting(const subtraction *s, int n_list, double wide, bool *few)
+static bool list_meeting(const subtraction *s, int n_list, bool *few)
 {
     polygon_work *w = s->work;
     const polygon_item *items = s->covers->items;
-    const int n_wide = sort_covers(s, n_list, wide);
-    const long most = (1L + MANY_PAIRS) * n_list;
-    long n_tries = (long)MOST_TRIES * n_list;
+    const int most = (1 + MANY_PAIRS) * n_list;
     int n = n_list;
     if (!grow_room(&w->ends, &w->end_capacity, n_list, sizeof *w->ends) ||
-        !grow_room(&w->lists, &w->list_capacity, most + 1, sizeof *w->lists))
+        !grow_room(&w->lists, &w->list_capacity, most + 1L, sizeof *w->lists))
         return false;
-    for (int k = 0; k < n_list && n <= most && n_tries > 0; k++) {
-        const int own = w->lists[k];
-        const box2 *box = &items[own].box;
-        for (int j = k - 1; j >= 0 && n <= most; j--, n_tries--) {
+    for (int k = 0; k < n_list && n <= most; k++) {
+        const box2 *box = &items[w->lists[k]].box;
+        for (int j = 0; j < k && n <= most; j++) {
             const int other = w->lists[j];
-            const box2 *at = &items[other].box;
-            if (j >= n_wide && at->lo_x + wide < box->lo_x)
-                j = n_wide; /* all others that are not wide end before it, too */
-            else if (boxes_overlap(at, box) &&
-                     polygon_relate(s->covers, own, s->covers, other) != POLYGON_APART)
+            if (boxes_overlap(&items[other].box, box) &&
+                polygon_relate(s->covers, w->lists[k], s->covers, other) != POLYGON_APART)
                 w->lists[n++] = other;
         }
         w->ends[k] = n;
     }
-    *few = n <= most && n_tries > 0;
+    *few = n <= most;
     return true;
 }
 
@@ -548,7 +508,7 @@ static bool subtract_one_by_one(subtraction *s, const polygon_list *from, const 
                                 int n, bool *done)
 {
     polygon_work *w = s->work;
-    if (!list_meeting(s, n, WIDE * (own->box.hi_x - own->box.lo_x), done)) return false;
+    if (!list_meeting(s, n, done)) return false;
     if (!*done) return true;
     s->area += polygon_area(from->points + own->first, own->n);
     for (int k = n - 1; k >= 0; k--) { /* tasks put their lists where those before are done with */
@@ -574,7 +534,7 @@ glint_status polygon_uncovered_area(const polygon_list *list, int subject,
     bool ok = true, done = covers->n <= FEW_COVERS;
     if (done)
         ok = subtract_few(&s, list, item, work->lists, covers->n);
-    else if (covers->n >= WORTH_RELATING)
+    else if (covers->n >= WORTH_RELATING && covers->n <= MOST_RELATED)
         ok = subtract_one_by_one(&s, list, item, covers->n, &done);
     if (ok && !done)
         ok = push_part(&s, list->points + item->first, item->n,
