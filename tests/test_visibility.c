@@ -796,6 +796,34 @@ START_TEST(test_visibility_corner_through_the_floor_hides_its_section)
 }
 END_TEST
 
+/* Triangles that go around their common corner twice, so that two lie over each quarter of a square
+ * and leave it once: a facet hides what is under it though it is of the same fan. */
+START_TEST(test_visibility_stair_that_winds_twice_hides_itself)
+{
+    enum { STEPS = 8 };
+    static const double z_m[STEPS] = {0, 0.1, 0.25, 0.3, 0.4, 0.35, 0.15, 0.05};
+    scene *s = scene_new();
+    for (int k = 0; k < STEPS; k++) {
+        const double turn = 0.25 * TWO_PI * k;
+        const double triangle[3][3] = {{0, 0, 0},
+                                       {cos(turn), sin(turn), z_m[k]},
+                                       {-sin(turn), cos(turn), z_m[(k + 1) % STEPS]}};
+        add_facet(s, triangle, 3);
+    }
+    scene_plan(s, 1);
+    for (int visit = 0; visit < 8; visit++) { /* the later ones with lists */
+        double sum = 0.0;
+        look(s, z_axis, z_axis, 0);
+        for (int k = 0; k < STEPS; k++)
+            sum += fraction(s, k);
+        assert_near(fraction(s, 0) + fraction(s, 6) + fraction(s, 7), 0.0, 0.0);
+        assert_near(fraction(s, 1) + fraction(s, 5), 1.0, 1e-13);
+        assert_near(sum, 4.0, 1e-13);
+    }
+    scene_free(s);
+}
+END_TEST
+
 /* A prism of 64 sides and 2.5 m around the z axis, from 1 m below the ground on. */
 static void add_pillar(facet_list *list, int component)
 {
@@ -1026,6 +1054,7 @@ static Suite *visibility_suite(void)
     tcase_add_test(touching, test_visibility_roof_of_strips_leaves_nothing);
     tcase_add_test(touching, test_visibility_edge_of_very_many_facets_leaves_what_one_leaves);
     tcase_add_test(touching, test_visibility_corner_through_the_floor_hides_its_section);
+    tcase_add_test(touching, test_visibility_stair_that_winds_twice_hides_itself);
     tcase_add_test(touching, test_visibility_prism_through_the_ground_casts_a_band);
     tcase_add_test(touching, test_visibility_along_edges_is_continuous);
     tcase_add_test(touching, test_visibility_random_bodies_are_symmetric_and_continuous);

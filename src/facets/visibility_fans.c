@@ -1,5 +1,8 @@
 #include "facets/visibility_fans.h"
 
+#include "base/vec.h"
+
+#include <math.h>
 #include <stdlib.h>
 
 /* The edges that end at each vertex. */
@@ -72,6 +75,75 @@ static int walk_around(const solids *s, int *edges, int n, int from, int *out)
     return at == start ? count : 0;
 }
 
+/* --- how often a fan winds --- */
+
+/* Cosine up to which a blade counts as edge-on, and the tries to find a side from which none is. */
+#define EDGE_ON 1e-6
+enum { MOST_TRIES = 32 };
+
+/* Finds a direction (not zero) from which n facets are all turned to the one who looks: the sum of
+ * their normals, to which that of the facet that is turned away most is added until none is
+ * (Rosenblatt 1958, Psychological Review 65(6) 386). False where there seems to be none. */
+static bool find_side(const model *m, const int *facets, int n, double towards[3])
+{
+    const facet *items = m->polygons.items;
+    copy3((const double[3]){0, 0, 0}, towards);
+    for (int k = 0; k < n; k++)
+        add3(towards, items[facets[k]].normal, towards);
+    for (int round = 0; round < MOST_TRIES; round++) {
+        const double edge_on = EDGE_ON * norm3(towards);
+        double least = INFINITY;
+        int worst = 0;
+        for (int k = 0; k < n; k++) {
+            const double cosine = dot3(items[facets[k]].normal, towards);
+            if (cosine < least) least = cosine, worst = k;
+        }
+        if (least > edge_on) return true;
+        add3(towards, items[facets[worst]].normal, towards);
+    }
+    return false;
+}
+
+/* The vertices before and after a vertex on a facet; false where the facet, thin as a hair, comes
+ * to it more than once. */
+static bool find_neighbours(const model *m, const solids *s, int facet_index, int vertex,
+                            int *before, int *after)
+{
+    const facet *f = &m->polygons.items[facet_index];
+    const int *ring = s->corners + f->first_vertex;
+    int n_before = 0, n_after = 0;
+    for (int k = 0; k < f->n_vertices; k++) {
+        const int from = ring[k], to = ring[k + 1 < f->n_vertices ? k + 1 : 0];
+        if (from == to) continue;
+        if (to == vertex) *before = from, n_before++;
+        if (from == vertex) *after = to, n_after++;
+    }
+    return n_before == 1 && n_after == 1;
+}
+
+/* Whether n facets that follow each other around a vertex go around it once: those that go around
+ * twice come before each other. Seen from where all are turned to the one who looks, each turns
+ * left by less than half a turn: counted are those that turn across one half of a line. */
+static bool winds_once(const model *m, const solids *s, int vertex, const int *facets, int n)
+{
+    double towards[3], across[3];
+    if (!find_side(m, facets, n, towards)) return false; /* it is never open, or hardly ever */
+    unit3(towards, towards);
+    const double axis[3] = {fabs(towards[0]) < 0.5, fabs(towards[0]) >= 0.5, 0};
+    perp3(axis, towards, across);
+    const double at_m = dot3(across, s->vertices[vertex]);
+    int turns = 0;
+    for (int k = 0; k < n; k++) {
+        int before = vertex, after = vertex;
+        if (!find_neighbours(m, s, facets[k], vertex, &before, &after)) return false;
+        turns +=
+            dot3(across, s->vertices[after]) < at_m && dot3(across, s->vertices[before]) >= at_m;
+    }
+    return turns == 1;
+}
+
+/* --- all fans --- */
+
 /* Appends the fan of n facets around a vertex that stands behind the others. */
 static void add_fan(const model *m, const solids *s, int vertex, int n, fans *out)
 {
@@ -101,8 +173,9 @@ glint_status fans_find(const model *m, const solids *s, fans *out, glint_error *
         const int n = around.first[v + 1] - around.first[v];
         for (int k = 0; k < n; k++) {
             if (edges[k] < 0) continue;
-            const int count = walk_around(s, edges, n, k, out->facets + out->first[out->n]);
-            if (count > 0) add_fan(m, s, v, count, out);
+            int *const facets = out->facets + out->first[out->n];
+            const int count = walk_around(s, edges, n, k, facets);
+            if (count > 0 && winds_once(m, s, v, facets, count)) add_fan(m, s, v, count, out);
         }
     }
     free(around.first);

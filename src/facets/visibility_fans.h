@@ -10,8 +10,9 @@
 #include "facets/solids.h"
 
 /* The closed fans of a model. A vertex has one, or several where surfaces meet in it, as the two
- * sides of a thin dish do; none where it is on a rim, and none of convex bodies and of sheets,
- * whose facets cast no shadows of their own. */
+ * sides of a thin dish do. It has none where it is on a rim, where its facets are turned to no side
+ * all together, as about a needle's point, and where they go around it more than once. Convex
+ * bodies and sheets have none: their facets cast no shadows of their own. */
 typedef struct fans {
     int n;
     int *first;     /* owned; n + 1: where a fan's facets begin in `facets` */
