@@ -7,7 +7,6 @@
 #include "lightcurve/watch.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -378,29 +377,34 @@ void glint_ephemeris_close(glint_ephemeris *e)
     free(e);
 }
 
+enum { CHUNK = 64 }; /* rows that one thread does in order */
+
+/* The rows of a block. */
+typedef struct block {
+    glint_ephemeris *e;
+    int n;
+} block;
+
+static glint_status fill_chunk(void *context, int thread, int64_t chunk, glint_error *error)
+{
+    const block *b = context;
+    glint_ephemeris *e = b->e;
+    const int first = (int)chunk * CHUNK, end = first + CHUNK < b->n ? first + CHUNK : b->n;
+    /* A chunk must not know what its thread did before: guesses decide last digits. */
+    e->workers[thread].w.light_time_s = 0;
+    for (int k = first; k < end; k++) {
+        const glint_status status = fill_row(e, &e->workers[thread], e->next + k, &e->rows[k],
+                                             e->hinge_rad + (size_t)k * (size_t)e->n_hinges, error);
+        if (status) return status;
+    }
+    return GLINT_OK;
+}
+
 /* The error of the earliest row wins. */
 static glint_status fill_block(glint_ephemeris *e, int n, glint_error *error)
 {
-    enum { CHUNK = 64 };
-    int failed_at = n;
-    glint_status failed = GLINT_OK;
-#pragma omp parallel for schedule(static, CHUNK) num_threads(e->n_threads) if (n > CHUNK)
-    for (int k = 0; k < n; k++) {
-        glint_error own = {0};
-        /* A chunk must not know what its thread did before: guesses decide last digits. */
-        if (k % CHUNK == 0) e->workers[omp_get_thread_num()].w.light_time_s = 0;
-        const glint_status status =
-            fill_row(e, &e->workers[omp_get_thread_num()], e->next + k, &e->rows[k],
-                     e->hinge_rad + (size_t)k * (size_t)e->n_hinges, &own);
-        if (!status) continue;
-#pragma omp critical(glint_first_ephemeris_error)
-        if (k < failed_at) {
-            failed_at = k;
-            failed = status;
-            if (error) *error = own;
-        }
-    }
-    return failed;
+    block b = {e, n};
+    return tiles_do(fill_chunk, &b, (n + CHUNK - 1) / CHUNK, e->n_threads, error);
 }
 
 glint_status glint_ephemeris_next(glint_ephemeris *e, const glint_ephemeris_row **rows, size_t *n,
